@@ -55,9 +55,11 @@ class BareEarthProvider(QgsProcessingProvider):
         """Add an instance of each algorithm, and the models of the plugin."""
         self._models = shipped_models()
         own = [CompositionAlgorithm(), *map_algorithms(), *tool_algorithms()]
+        names = Fields(own)
+        use_names(names)  # the helps name other tools
         for algorithm in [*own, *self._models]:
             self.addAlgorithm(algorithm)
-        use_names(Fields(own))
+        names.add_labels(own)
 
     def load_models(self, _: str = "") -> None:
         """Read the models again, whose outputs are known only when their steps are registered."""

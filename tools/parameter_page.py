@@ -12,6 +12,7 @@ from bare_earth.algorithms import tools
 from bare_earth.algorithms.core.parameters import Declaration, ParameterSet
 from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.filters import METHODS
+from bare_earth.algorithms.tools.listing import COMPOSITIONS, FILE_TOOLS, MAP_TOOLS, POINT_TOOLS
 
 PAGE = Path(__file__).parents[1] / "docs" / "parameters.md"
 _UNITS = {"m": " m", "deg": "°", "GB": " GB"}
@@ -76,7 +77,7 @@ def text() -> str:
 
 def _sets() -> dict[str, type[ParameterSet]]:
     """Return the sets of all tools and filters, by the names of their classes."""
-    commands = tools.POINT_TOOLS, tools.MAP_TOOLS, tools.FILE_TOOLS, tools.COMPOSITIONS
+    commands = POINT_TOOLS, MAP_TOOLS, FILE_TOOLS, COMPOSITIONS
     found = {method.parameters for method in METHODS.values()} | {Resources}
     for command in (command for listed in commands for command in listed):
         tool = tools.any_tool(command)

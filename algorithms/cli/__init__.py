@@ -12,7 +12,7 @@ from ..core.errors import BareEarthError, Cancelled, FinishedFilesStay, UsageErr
 from ..core.imports import own_this_process
 from ..core.words import Flags, use_names
 from ..engine.memory import share_one_heap
-from ..tools import COMPOSITIONS, FILE_TOOLS, POINT_TOOLS
+from ..tools.listing import COMPOSITIONS, FILE_TOOLS, POINT_TOOLS
 from .commands import tool_command
 from .options import DONE, FAILED, USAGE, Command
 
@@ -20,7 +20,7 @@ from .options import DONE, FAILED, USAGE, Command
 def _add_cache(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
     parser.add_argument(
         "--cache", metavar="FOLDER",
-        help="the folder of the cache; without it that of BARE_EARTH_CACHE, or one of the user",
+        help="The folder of the cache. Without it: that of BARE_EARTH_CACHE, or one of the user.",
     )  # fmt: skip
 
 
@@ -41,9 +41,8 @@ _COMMANDS = (
     *map(tool_command, ("terrain", "contours", "relief", "water", "water-classes")),
     Command(
         "clear-cache",
-        "remove what is kept of remote point clouds",
-        "Removes the parts of remote point clouds that runs have fetched and kept, and tells how"
-        " many bytes that were.",
+        "Removes the parts of remote point clouds that runs have fetched and kept.",
+        "It tells how many bytes that were.",
         _add_cache,
         _clear_cache,
     ),
@@ -126,8 +125,8 @@ def _parser(arguments: Sequence[str]) -> argparse.ArgumentParser:
     )
     for command in (*_COMMANDS, *further):
         options = commands.add_parser(
-            command.name, parents=[common], help=command.help, description=command.description,
-            epilog=_EMPTY,
+            command.name, parents=[common], help=command.line, epilog=_EMPTY,
+            description=f"{command.line} {command.more}",
         )  # fmt: skip
         options.set_defaults(run=command.run)
         # Declarations of parameters import numpy, so other commands are left out.

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import re
 from functools import partial
 from pathlib import Path
 from types import SimpleNamespace
@@ -11,8 +10,10 @@ from typing import TYPE_CHECKING, Any, Sequence
 
 from ..core.errors import BareEarthError, UsageError
 from ..core.imports import import_only_what_runs_need
+from ..core.words import in_words
 from ..remote.addresses import is_address, name_of
-from ..tools import COMPOSITIONS, FILE_TOOLS, MAP_TOOLS, POINT_TOOLS, Listed, any_tool, file_tool
+from ..tools import any_tool, file_tool
+from ..tools.listing import COMPOSITIONS, FILE_TOOLS, MAP_TOOLS, POINT_TOOLS, listed
 from .options import DONE, FAILED, Command, add_json, add_parameters, chosen
 from .terminal import Terminal, tell
 
@@ -28,12 +29,7 @@ _METAVARS = {
     "crs": "CRS", "checkpoints_crs": "CRS",
     "columns": "x=E,y=N,z=H,cover=Class,type=Use,name=ID",
 }  # fmt: skip
-_KEYWORD = re.compile(r"`([a-z_]+)`")  # in texts of the library
 _BOX = ("XMIN", "YMIN", "XMAX", "YMAX")
-_HELP = {
-    "scheduler": "with many files: the address of a Dask scheduler, such as tcp://host:8786, whose"
-    " workers do the work; without it, processes of this computer do it"
-}
 
 
 def tool_command(name: str) -> Command:
@@ -42,9 +38,8 @@ def tool_command(name: str) -> Command:
         (FILE_TOOLS, _do_file_tool), (POINT_TOOLS, _do_on_points), (MAP_TOOLS, _do_on_points),
         (COMPOSITIONS, _do_composition),
     )  # fmt: skip
-    listed: Listed
-    listed, work = next((tools[name], work) for tools, work in kinds if name in tools)
-    return Command(name, listed.help, "", partial(_add_tool, name), partial(work, name))
+    work = next(work for tools, work in kinds if name in tools)
+    return Command(name, listed(name).line, "", partial(_add_tool, name), partial(work, name))
 
 
 def _add_tool(name: str, parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
@@ -52,7 +47,7 @@ def _add_tool(name: str, parser: argparse.ArgumentParser, arguments: Sequence[st
     from ..library.tools import of_tool
 
     function, tool = of_tool(name), any_tool(name)
-    parser.description = tool.command_about
+    parser.description = in_words(tool.help)
     _add_arguments(parser, function)
     sets, titles = function.sets, tool.titles
     if function.has_method:
@@ -71,7 +66,7 @@ def _add_tool(name: str, parser: argparse.ArgumentParser, arguments: Sequence[st
 def _add_arguments(parser: argparse.ArgumentParser, function: Function) -> None:
     given = (*function.positional, *function.keywords)
     for argument in (argument for argument in given if argument.choices):
-        parser.add_argument(argument.name, choices=argument.choices, help=f"{argument.help}.")
+        parser.add_argument(argument.name, choices=argument.choices, help=argument.help)
     for argument in given:
         if argument.name != "progress" and not argument.choices:
             _add_argument(parser, argument)
@@ -80,9 +75,8 @@ def _add_arguments(parser: argparse.ArgumentParser, function: Function) -> None:
 def _add_argument(parser: argparse.ArgumentParser, argument: Argument) -> None:
     from ..library.arguments import KINDS, REQUIRED
 
-    name, text = argument.name, _HELP.get(argument.name, argument.help).replace("%", "%%")
-    text = _KEYWORD.sub(lambda found: _option(found[1]), text)
-    text = text.replace(", or their x, y and z in the CRS of the points", "")  # of arrays
+    name, text = argument.name, in_words(argument.help).replace("%", "%%")
+    text = text.replace("Empty:", "Without it:")
     is_needed, metavar = argument.default is REQUIRED, _METAVARS.get(name, "FILE")
     if argument.kind == KINDS["clouds"]:
         parser.add_argument(name, metavar="INPUT", nargs="+", help=text)
@@ -91,7 +85,6 @@ def _add_argument(parser: argparse.ArgumentParser, argument: Argument) -> None:
     elif is_needed and argument.kind in map(KINDS.get, ("path", "text", "cloud", "raster")):
         parser.add_argument(name, metavar=_METAVARS.get(name, name.upper()), help=text)
     elif argument.kind == KINDS["extent"]:
-        text = text.replace("xmin, ymin, xmax, ymax: ", "")
         parser.add_argument(_option(name), nargs=4, type=float, metavar=_BOX, help=text)
     elif argument.kind == KINDS["words"]:
         parser.add_argument(_option(name), nargs="+", metavar="WORD", help=text)
@@ -109,7 +102,8 @@ def _add_method(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> Me
 
     parser.add_argument(
         "--method", choices=list(METHODS), default=DEFAULT_METHOD,
-        help="the ground filter (default: %(default)s)",
+        help="The ground filter. The help tells the parameters of the one that is named before"
+        " --help. (default: %(default)s)",
     )  # fmt: skip
     # The other options depend on the method, which is in the same command line.
     named = argparse.ArgumentParser(add_help=False, allow_abbrev=False)

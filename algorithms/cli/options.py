@@ -18,26 +18,14 @@ class Command(NamedTuple):
     """One command."""
 
     name: str
-    help: str  # one line
-    description: str  # one or two sentences; empty if `add` sets it
+    line: str  # a sentence, for the list of commands
+    more: str  # its help behind the line; empty if `add` sets the whole help
     # adds options to a parser; they can depend on the whole command line
     add: Callable[[argparse.ArgumentParser, Sequence[str]], None]
     run: Callable[[argparse.Namespace], int]  # returns the exit code
 
 
-# End of the help of `add_crs`.
-KEPT = "; written point clouds keep the records that the files have"
 _NOT_USED = ("none", "automatic")
-
-
-def add_crs(parser: argparse.ArgumentParser, note: str = "") -> None:
-    """Add the option for the CRS of the points; `note` ends its help."""
-    parser.add_argument(
-        "--crs", metavar="CRS",
-        help="the CRS of the points, for files that state none or a wrong one: an EPSG code, such"
-        " as EPSG:2230 or EPSG:2230+6360 (with heights), or WKT; it replaces what files state"
-        + note,
-    )  # fmt: skip
 
 
 def add_json(parser: argparse.ArgumentParser, what: str = "what was done ") -> None:

@@ -38,8 +38,8 @@ _REASONS = {
 }
 
 
-# As long as the marks of a temporary folder, and the files that runs make in one.
-MARKS, _MADE_BESIDE = "x" * MARKS_LENGTH, f"{'x' * MARKS_LENGTH}/{'x' * 16}"
+MARKS = "x" * MARKS_LENGTH  # as long as the marks of a temporary folder
+_MADE_BESIDE = f"{MARKS}/{'x' * 16}"  # as long as the files that runs make in one
 # No file system that is met allows names of more than 255 characters.
 _LONGEST_ENDING = 240
 

@@ -218,5 +218,5 @@ class HasSets:
         and with other fields; what no field has the type of are the `parameters`.
         """
         names = {type(default): name for name, default in vars(cls()).items()}
-        fields.update((names.get(type(some), "parameters"), some) for some in sets)
+        fields.update((names.get(type(given), "parameters"), given) for given in sets)
         return cls(**fields)

@@ -88,13 +88,13 @@ class Points(_Columns):
         west, south, east, north = self.box
         return west >= box[0] and south >= box[1] and east < box[2] and north < box[3]
 
-    def take(self, which: np.ndarray | slice) -> Points:
+    def take(self, selected: np.ndarray | slice) -> Points:
         """Return the points that a boolean mask, an index array or a slice selects."""
-        if isinstance(which, np.ndarray) and which.dtype == bool:
-            which = np.flatnonzero(which)  # faster than to use the mask three times
-        if isinstance(which, slice) or len(which) < _MANY:
-            return Points(self.x[which], self.y[which], self.z[which])
-        return Points(*in_threads(lambda column: column[which], self))
+        if isinstance(selected, np.ndarray) and selected.dtype == bool:
+            selected = np.flatnonzero(selected)  # faster than to use the mask three times
+        if isinstance(selected, slice) or len(selected) < _MANY:
+            return Points(self.x[selected], self.y[selected], self.z[selected])
+        return Points(*in_threads(lambda column: column[selected], self))
 
     def and_also(self, more: Points) -> Points:
         """Return these points, followed by others."""

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import re
 from typing import Any
+
+_NAMED = re.compile(r"`([a-z_]+)(\(\))?`")
 
 
 def counted(count: int, single: str, several: str = "") -> str:
@@ -71,3 +74,13 @@ def option(name: str, value: Any = None, of: str = "") -> str:
 def tool(command: str) -> str:
     """Return a tool in the words of a terminal, the library or QGIS."""
     return _names.tool(command)
+
+
+def in_words(text: str) -> str:
+    """Return a help text whose tools, as `water()`, and options, as `max_edge`, have the names that
+    a terminal, the library or QGIS gives them.
+    """
+    return _NAMED.sub(
+        lambda found: tool(found[1].replace("_", "-")) if found[2] else option(found[1]),
+        text,
+    )

@@ -147,10 +147,10 @@ class DeliveryFolder:
             with new_folder(self.path), temporary_folder(self.path) as aside:
                 exchange(moves, outdated, aside)
         except OutputInUse as error:
-            what = "delivery" if is_one else "delivery, all but its points,"
+            content = "delivery" if is_one else "delivery, all but its points,"
             kept_in = free_path(self.path)
             patiently(os.rename, working, kept_in)
-            raise OutputInUse(f"{error} The new {what} is kept in {kept_in}.") from error
+            raise OutputInUse(f"{error} The new {content} is kept in {kept_in}.") from error
         remove(self.waiting)
         with write_errors_told(self.path):
             self._put_records_away(is_one)

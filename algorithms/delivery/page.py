@@ -204,7 +204,7 @@ def _files(root: Path, files: Sequence[Path]) -> Html:
     left = len(points) - _MOST_ROWS
     return section(
         "Files",
-        table([(_broken(link(quote(name), name)), what) for name, what in rows]),
+        table([(_broken(link(quote(name), name)), about) for name, about in rows]),
         paragraph(f"{left:,} more files of points are not listed." if left > 0 else ""),
     )
 

@@ -46,8 +46,11 @@ def _small(raster: Path) -> tuple[np.ndarray, float]:
     opened = read_raster(raster, window=NO_CELLS)
     rows, columns = opened.whole
     step = math.ceil(max(rows, columns) / LONGEST_SIDE)
-    some = max(_CELLS // columns // step, 1) * step
-    parts = [reduced(opened.rows(first, first + some), step) for first in range(0, rows, some)]
+    rows_at_once = max(_CELLS // columns // step, 1) * step
+    parts = [
+        reduced(opened.rows(first, first + rows_at_once), step)
+        for first in range(0, rows, rows_at_once)
+    ]
     return np.concatenate(parts).astype(np.float64), opened.cell_metres[0] * step
 
 

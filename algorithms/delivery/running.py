@@ -17,7 +17,7 @@ from ..core.version import __version__
 from ..engine.options import TileInput
 from ..engine.workers import Workers
 from ..survey.files import Inputs, Sources, open_survey
-from ..tools import POINT_TOOLS
+from ..tools.listing import POINT_TOOLS
 from .deliveries import DELIVERIES
 from .folder import PAGE, DeliveryFolder
 from .job import DeliveryJob

@@ -13,6 +13,7 @@ from ..tools.contours import Contours
 from ..tools.declaration import (
     CANOPY,
     CLOUD,
+    CLOUD_OUTPUT,
     CRS,
     GROUND,
     TERRAIN,
@@ -43,39 +44,19 @@ _CORRECTIONS = Input("corrections", "corrections", is_last=True)
 _AREA = Input(
     "area",
     "area",
-    help="deliver only",
-    more="; points nearby help to judge",
-    area_help=(
-        "Only points in this rectangle are mapped and written. Points nearby help to judge. Empty:"
-        " all points.",
-        "Only points in these polygons are mapped and written; with an extent, only points in both."
-        " Points nearby help to judge. Empty: all points.",
-    ),
+    help="Only points in {area} are mapped and written. Points nearby help to judge. Empty: all"
+    " points.",
 )
 _FOLDER = Output(
     "output",
     "folder",
-    help="the folder for all outputs: a new or empty one, or that of an earlier delivery, which is"
-    " replaced",
+    help="The folder for all outputs of a delivery: an empty or new one, or that of an earlier"
+    " delivery, which is replaced.",
     label="Folder of the delivery",
-    field_help="The folder for all outputs of a delivery: an empty or new one, or that of an"
-    " earlier delivery, which is replaced.",
     named="DELIVERY_FOLDER",
     is_main=True,
     by_default=False,
     page="Page of the delivery",
-)
-_CLOUD = Output(
-    "cloud",
-    "cloud",
-    "",
-    label="Classified point cloud",
-    field_help="The same points with their new classes.",
-    named="OUTPUT",
-)
-_CONTOURS = (
-    "Lines of equal height of the terrain model, with the field ELEV. They are smoothed, so that"
-    " they do not show noise. Every fifth line has its height as a label."
 )
 # Rasters that the dialog makes unless the user says no.
 _USUAL = ("dtm", "hillshade", "dsm", "chm")
@@ -88,18 +69,19 @@ def _in_dialog() -> tuple[Output, ...]:
     single = []
     for output in maps():
         if output.name == "contours":
-            output = replace(output, label="Contour lines", field_help=_CONTOURS)
+            output = replace(output, label="Contour lines")
         elif RASTERS[output.name].is_relief and output.name not in _RELIEFS:
             continue
         single.append(replace(output, by_default=output.name in _USUAL))
-    return replace(_FOLDER, is_main=False), _CLOUD, *single
+    cloud = replace(CLOUD_OUTPUT, name="cloud", named="OUTPUT", is_main=False)
+    return replace(_FOLDER, is_main=False), cloud, *single
 
 
 TOOL = Composition(
     work=_deliver,
     tables=DELIVERIES,
     chosen="delivery",
-    chosen_help="what to deliver",
+    chosen_help="What to deliver.",
     default=DEFAULT_DELIVERY,
     sets=(
         DeliveryOptions, Selection, DeliveryTerrain, SurfaceModel, Contours, DeliveryWater,
@@ -114,17 +96,13 @@ TOOL = Composition(
     outputs=(_FOLDER,),
     json="the figures",
     command="deliver",
-    command_about="Classifies raw points and makes all outputs that a job hands over, in one"
-    " folder: points, rasters, lines, figures of quality and accuracy, and a page that lists them"
-    " (index.html). Each delivery has settings of its own. The options replace them.",
-    function_about="Classify raw points and make everything that a job hands over, in one folder.",
     identifier="pointcloudtoterrain",
     title="Point cloud to terrain",
     section="All in one",
-    summary="Makes a map of the terrain of a raw point cloud: classes, models, contours.",
-    about="Finds the ground of a raw lidar point cloud and makes maps of it. Each output is"
-    " optional. A delivery makes all that a job hands over, in one folder: for a survey,"
-    " archaeology, forestry, floods or a drone site. Lengths are metres.",
+    about="A delivery puts all of it into one folder: points, rasters, lines, figures of quality"
+    " and accuracy, and a page that lists them (index.html). There are deliveries for a survey,"
+    " archaeology, forestry, floods and a drone site. Each has settings of its own, and those that"
+    " you give replace them. Lengths are metres.",
     page="terrain-model#point-cloud-to-terrain",
     words=(
         CLOUD, GROUND, TERRAIN, CANOPY, TILES, "contours,workflow",

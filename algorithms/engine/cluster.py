@@ -198,20 +198,20 @@ def _check_encryption(address: str) -> None:
     # Dask itself raises various errors then, and leaves threads that never end.
     from distributed.security import Security
 
-    what = f"The scheduler {address} cannot be reached"
+    problem = f"The scheduler {address} cannot be reached"
     where = "See 'distributed.comm' in the configuration of Dask on this computer."
     try:
         security = Security()
         has_keys = security.get_connection_args("client")["ssl_context"] is not None
     except (OSError, ValueError, ImportError) as error:
         raise BareEarthError(
-            f"{what}: the certificate or the key cannot be used ({error}). {where}"
+            f"{problem}: the certificate or the key cannot be used ({error}). {where}"
         ) from error
     is_secret = address.startswith("tls://")
     if is_secret and not has_keys:
-        raise BareEarthError(f"{what}: TLS needs a certificate, a key and an authority. {where}")
+        raise BareEarthError(f"{problem}: TLS needs a certificate, a key and an authority. {where}")
     if security.require_encryption and not is_secret:
-        raise BareEarthError(f"{what}: encryption is required. {where}")
+        raise BareEarthError(f"{problem}: encryption is required. {where}")
 
 
 def _marked(folder: Path) -> Path:

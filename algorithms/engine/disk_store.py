@@ -75,21 +75,21 @@ class DiskStore(Store):
     def append(self, part: PointCloud, marks: Marks) -> None:
         """Add the selected points of the next part."""
         super().append(part, marks)
-        which = np.flatnonzero(marks.selected)
-        which = which[self._runs.sort(part.places(which, self.frame), self._stored)]
-        records = np.empty(len(which), dtype=_RECORD)
+        indices = np.flatnonzero(marks.selected)
+        indices = indices[self._runs.sort(part.places(indices, self.frame), self._stored)]
+        records = np.empty(len(indices), dtype=_RECORD)
         for name in ("x", "y", "z"):
-            records[name] = getattr(part, name)[which]
-        records["flags"] = _flags(marks, which)
+            records[name] = getattr(part, name)[indices]
+        records["flags"] = _flags(marks, indices)
         self.has_known |= bool((records["flags"] & _KNOWN).any())
         with write_errors_told(self._target):
             self._records.write(records.tobytes())
-            self._orders.write(which.astype(_INDEX).tobytes())
+            self._orders.write(indices.astype(_INDEX).tobytes())
         # By indices, since an empty slice would keep the points in memory.
         self._clouds.append(part.take(np.zeros(0, dtype=np.intp)))
         self._sizes.append(part.count)
         self._firsts.append(self._stored)
-        self._stored += len(which)
+        self._stored += len(indices)
 
     def finish(self, progress: Progress = SILENT) -> None:
         """Finish adding points."""
@@ -114,8 +114,8 @@ class DiskStore(Store):
             positions: np.ndarray = np.arange(*run, dtype=kind)
             if only is not None:
                 bits = records["flags"] & (_KNOWN | named.get(only, 0))
-                which = np.flatnonzero(bits == 0 if only == OTHERS else bits)
-                records, positions = records[which], positions[which]
+                chosen = np.flatnonzero(bits == 0 if only == OTHERS else bits)
+                records, positions = records[chosen], positions[chosen]
             x, y, z = (records[name] for name in "xyz")
             # Files can differ in scale and offset.
             cloud = self._clouds[bisect.bisect_right(starts, run[0]) - 1]
@@ -132,10 +132,10 @@ class DiskStore(Store):
             return
         kind, cuts = self._value_kind, np.flatnonzero(np.diff(positions) > _GAP) + 1
         with write_errors_told(self._target):
-            for where, some in zip(np.split(positions, cuts), np.split(values, cuts)):
+            for where, new in zip(np.split(positions, cuts), np.split(values, cuts)):
                 first, last = int(where[0]), int(where[-1]) + 1
                 stored = _read(self._values, kind, first, last).copy()
-                stored[where - first] = some
+                stored[where - first] = new
                 self._values.seek(first * kind.itemsize)
                 self._values.write(stored.tobytes())
             reach_disk(self._values)
@@ -152,8 +152,8 @@ class DiskStore(Store):
         """Return the values of all points of a part."""
         values = np.zeros(self._sizes[number], dtype=self._value_kind)
         start, end, *_ = *self._firsts[number:], self._stored
-        which = _read(self._orders, _INDEX, start, end)
-        values[which] = _read(self._values, self._value_kind, start, end)
+        indices = _read(self._orders, _INDEX, start, end)
+        values[indices] = _read(self._values, self._value_kind, start, end)
         return values
 
 
@@ -162,13 +162,13 @@ def _bits(names: Sequence[str]) -> dict[str, int]:
     return {name: _FIRST_NAMED << number for number, name in enumerate(names)}
 
 
-def _flags(marks: Marks, which: np.ndarray) -> np.ndarray:
+def _flags(marks: Marks, indices: np.ndarray) -> np.ndarray:
     """Return the flags of some points as the bits of an integer."""
-    flags = np.full(len(which), 0 if marks.wanted is not None else _WANTED, dtype=np.uint8)
+    flags = np.full(len(indices), 0 if marks.wanted is not None else _WANTED, dtype=np.uint8)
     named = [(bit, marks.flags[name]) for name, bit in _bits(tuple(marks.flags)).items()]
     for bit, mask in ((_KNOWN, marks.known), (_WANTED, marks.wanted), *named):
         if mask is not None:
-            flags |= (bit * mask[which]).astype(np.uint8)
+            flags |= (bit * mask[indices]).astype(np.uint8)
     return flags
 
 

@@ -172,8 +172,8 @@ class PointJob(BlockJob):
                 kind = self.output.grid.step.kind
                 of_files = {path: np.zeros(count, dtype=kind) for path, count in counts.items()}
                 ends = dict.fromkeys(counts, 0)
-                for which, (path, blocks) in enumerate(() if failure else parts):
-                    values = work.store.values(which)[blocks == number]
+                for part, (path, blocks) in enumerate(() if failure else parts):
+                    values = work.store.values(part)[blocks == number]
                     start, ends[path] = ends[path], ends[path] + len(values)
                     of_files[path][start : ends[path]] = values
                 self.output.write(place, of_files, failure)

@@ -15,7 +15,8 @@ from ..core.files import replacing
 from ..core.temporary import patiently
 from .block_grid import BlockGrid, BlockIndex
 
-_FOLDER, _WORK = ".bare-earth", "work"
+_FOLDER = ".bare-earth"
+_WORK = "work"
 _LONGEST_NAME = 250
 
 # The result of `fingerprint_of`; two outputs are equal if theirs are.

@@ -36,12 +36,12 @@ class MemoryStore(Store):
         selected, known, wanted, flags = marks
         known = known if known is not None and known.any() else None
         wanted = wanted if wanted is not None and not wanted.all() else None
-        some = {
+        not_empty = {
             name: flag
             for name, flag in flags.items()
             if not isinstance(flag, np.ndarray) or flag.any()
         }
-        self._parts.append((part, Marks(selected, known, wanted, some)))
+        self._parts.append((part, Marks(selected, known, wanted, not_empty)))
         self.has_known |= known is not None
 
     def finish(self, progress: Progress = SILENT) -> None:
@@ -97,35 +97,35 @@ class MemoryStore(Store):
             firsts = starts[runs] - (self._ends[number] - len(order))
             spans = zip(firsts.tolist(), counts[runs].tolist())
             found = [order[first : first + n] for first, n in spans]
-            which = found[0] if len(found) == 1 else np.concatenate([order[:0], *found])
+            indices = found[0] if len(found) == 1 else np.concatenate([order[:0], *found])
             if only is not None:
-                which = self._chosen(number, which, only)
-            pieces += [(number, which[piece]) for piece in parts_of(len(which), _READ)]
+                indices = self._chosen(number, indices, only)
+            pieces += [(number, indices[piece]) for piece in parts_of(len(indices), _READ)]
         frame = self.frame.moved(corner)
         return (
-            [len(which) for _, which in pieces],
+            [len(indices) for _, indices in pieces],
             lambda number: self._contents(*pieces[number], frame),
         )
 
-    def _chosen(self, number: int, which: np.ndarray, only: str) -> np.ndarray:
+    def _chosen(self, number: int, indices: np.ndarray, only: str) -> np.ndarray:
         """Return those of some points of a part that `only` names."""
         _, marks = self._parts[number]
         if only == OTHERS:
-            return which if marks.known is None else which[~marks.known[which]]
+            return indices if marks.known is None else indices[~marks.known[indices]]
         masks = marks.known, marks.flags.get(only)
-        flags = [mask[which] for mask in masks if mask is not None]
-        return which[np.logical_or.reduce(flags)] if flags else which[:0]
+        flags = [mask[indices] for mask in masks if mask is not None]
+        return indices[np.logical_or.reduce(flags)] if flags else indices[:0]
 
-    def _contents(self, number: int, which: np.ndarray, frame: Frame) -> BlockPoints:
-        (cloud, marks), count = self._parts[number], len(which)
-        known = np.zeros(count, bool) if marks.known is None else marks.known[which]
-        wanted = np.ones(count, bool) if marks.wanted is None else marks.wanted[which]
+    def _contents(self, number: int, indices: np.ndarray, frame: Frame) -> BlockPoints:
+        (cloud, marks), count = self._parts[number], len(indices)
+        known = np.zeros(count, bool) if marks.known is None else marks.known[indices]
+        wanted = np.ones(count, bool) if marks.wanted is None else marks.wanted[indices]
         flags = {
-            name: marks.flags[name][which] if name in marks.flags else np.zeros(count, bool)
+            name: marks.flags[name][indices] if name in marks.flags else np.zeros(count, bool)
             for name in self.flags
         }
-        positions = np.add(which, self.starts[number], dtype=smallest_integers(self.count))
-        points = cloud.points(which, frame)
+        positions = np.add(indices, self.starts[number], dtype=smallest_integers(self.count))
+        points = cloud.points(indices, frame)
         return BlockPoints(points, known, wanted, positions, flags)
 
     def put(self, positions: np.ndarray, values: np.ndarray) -> None:
@@ -143,10 +143,10 @@ def _indices(cloud: PointCloud, selected: np.ndarray, progress: Progress) -> np.
     count = np.count_nonzero(selected)
     indices: np.ndarray = np.empty(count, dtype=smallest_integers(cloud.count))
     end = 0
-    for some in parts_of(cloud.count, _CHOSEN):
-        found = np.flatnonzero(selected[some])
+    for part in parts_of(cloud.count, _CHOSEN):
+        found = np.flatnonzero(selected[part])
         indices[end : end + len(found)] = found
-        indices[end : end + len(found)] += some.start
+        indices[end : end + len(found)] += part.start
         end += len(found)
-        progress(some.stop / cloud.count)
+        progress(part.stop / cloud.count)
     return indices

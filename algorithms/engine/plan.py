@@ -229,10 +229,10 @@ class Plan:
                 todo |= block.needs
         return dict(sorted(missing.items()))
 
-    def _files_of(self, some: Iterable[_PlannedBlock]) -> tuple[BlockFiles, ...]:
+    def _files_of(self, blocks: Iterable[_PlannedBlock]) -> tuple[BlockFiles, ...]:
         """Return the files of some blocks, by their steps."""
         files: dict[int, dict[BlockIndex, Path]] = defaultdict(dict)
-        for block in sorted(some, key=attrgetter("key")):
+        for block in sorted(blocks, key=attrgetter("key")):
             files[block.step][block.place] = block.file
         return tuple(BlockFiles(self.grids[number], files[number]) for number in files)
 
@@ -310,4 +310,4 @@ class Results:
             if unpacking is not None:
                 las = unpacking.of(las, part.quiet())
             parts = numbered(read_parts(las, part.quiet()))
-            yield from (some for _, some in with_values(parts, values))
+            yield from (points for _, points in with_values(parts, values))

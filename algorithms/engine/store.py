@@ -73,19 +73,19 @@ class BlockPoints(NamedTuple):
         points = Points(*np.empty((3, count)))
         return cls(points, known, wanted, positions, dict(zip(names, flags)))
 
-    def put(self, start: int, some: BlockPoints) -> None:
+    def put(self, start: int, added: BlockPoints) -> None:
         """Overwrite points from index `start` on with other points."""
-        where = slice(start, start + some.points.count)
-        for mine, theirs in zip(self._arrays, some._arrays):
+        where = slice(start, start + added.points.count)
+        for mine, theirs in zip(self._arrays, added._arrays):
             mine[where] = theirs
 
-    def take(self, which: np.ndarray | slice) -> BlockPoints:
+    def take(self, selected: np.ndarray | slice) -> BlockPoints:
         """Return the points that a mask or a slice selects."""
-        if isinstance(which, np.ndarray) and which.dtype == bool:
-            which = np.flatnonzero(which)  # faster than to use the mask six times
-        known, wanted, positions = (array[which] for array in self[1:4])
-        flags = {name: flag[which] for name, flag in self.flags.items()}
-        return BlockPoints(self.points.take(which), known, wanted, positions, flags)
+        if isinstance(selected, np.ndarray) and selected.dtype == bool:
+            selected = np.flatnonzero(selected)  # faster than to use the mask six times
+        known, wanted, positions = (array[selected] for array in self[1:4])
+        flags = {name: flag[selected] for name, flag in self.flags.items()}
+        return BlockPoints(self.points.take(selected), known, wanted, positions, flags)
 
     @property
     def _arrays(self) -> tuple[np.ndarray, ...]:
@@ -148,12 +148,12 @@ class Store:
             return whole
         end = 0
         for number in numbers:
-            some = piece(number)
+            read = piece(number)
             if box is not None:
-                inside = some.points.within(box)
-                some = some if inside.all() else some.take(inside)
-            whole.put(end, some)
-            end += some.points.count
+                inside = read.points.within(box)
+                read = read if inside.all() else read.take(inside)
+            whole.put(end, read)
+            end += read.points.count
             progress(starts[number + 1] / starts[-1])
         return whole.take(slice(end))
 

@@ -17,7 +17,7 @@ from ..core.parameters import ParameterSet, parameter
 from ..core.points import Points
 from ..core.progress import Progress
 from ..grids.cells import Cells
-from .method import TERRAINS, Method, Toolbox, of_preset
+from .method import TERRAINS, Method, of_preset
 from .pipeline import Pipeline
 from .stages import shared_pipeline
 from .stages.accept import NearSurface
@@ -239,15 +239,6 @@ def _counting_cells(points: Points, parameters: GridMinimum) -> Cells:
     return Cells.over(points, size)
 
 
-_SUMMARY = "Finds the ground points of a lidar point cloud by rules on the lowest points of cells."
-_ABOUT = (
-    "Finds the ground points of airborne or drone lidar on a grid of lowest points, and writes a"
-    " point cloud with the new classes; nothing else in it changes. Steps between neighbouring"
-    " cells are the rims of objects. What such rims enclose is removed, tall objects first. The"
-    " method is fast, and needs only heights, no return numbers.\n"
-    "Lengths are metres and angles degrees, whatever the unit of the CRS. The terrain model and"
-    " its hillshade are GeoTIFFs."
-)
 METHOD = Method(
     "grid-minimum",
     "Grid minimum",
@@ -258,12 +249,4 @@ METHOD = Method(
     "max_object_size",
     CLASSIC,
     PRESETS,
-    Toolbox(
-        "gridminimum",
-        "Classify ground (grid minimum)",
-        _SUMMARY,
-        _ABOUT,
-        "grid-minimum",
-        ("grid,raster,rasterize,interpolate", "lowest,minimum"),
-    ),
 )

@@ -21,9 +21,9 @@ class HeightGrid(NamedTuple):
         """Which cells have a height; boolean, shape (rows, columns)."""
         return np.isfinite(self.values)
 
-    def where(self, which: np.ndarray) -> HeightGrid:
+    def where(self, cells: np.ndarray) -> HeightGrid:
         """Return the heights of some cells only."""
-        return self._replace(values=np.where(which, self.values, np.nan))
+        return self._replace(values=np.where(cells, self.values, np.nan))
 
     def filled(self, relaxations: int = RELAXATIONS) -> np.ndarray:
         """Return the heights with gaps filled smoothly; see `inpaint`."""

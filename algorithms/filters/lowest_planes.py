@@ -62,19 +62,19 @@ class Surroundings(NamedTuple):
             plane = self._fitted(np.where(self.known, weights**-2.0, 0.0))
         return plane, self._above(plane)
 
-    def median(self, values: np.ndarray, which: np.ndarray | None = None) -> np.ndarray:
+    def median(self, values: np.ndarray, counted: np.ndarray | None = None) -> np.ndarray:
         """Return the median of some values round each place, the lower of two; infinite where there
         are none.
         """
-        return self._quantile(values, 0.5, which)
+        return self._quantile(values, 0.5, counted)
 
-    def sides_with(self, which: np.ndarray) -> np.ndarray:
-        """Return on how many sides of each place at least half of the heights are of `which`."""
-        sides = np.zeros(len(which), dtype=np.int8)
+    def sides_with(self, wanted: np.ndarray) -> np.ndarray:
+        """Return on how many sides of each place at least half of the heights are wanted."""
+        sides = np.zeros(len(wanted), dtype=np.int8)
         for side in range(SIDES):
             here = self.known & (self.side == side)
             known = np.count_nonzero(here, axis=1)
-            sides += (2 * np.count_nonzero(here & which, axis=1) >= known) & (known > 0)
+            sides += (2 * np.count_nonzero(here & wanted, axis=1) >= known) & (known > 0)
         return sides
 
     def _above(self, plane: np.ndarray) -> np.ndarray:
@@ -82,12 +82,12 @@ class Surroundings(NamedTuple):
         return self.z - (self.x * east + self.y * north + height)
 
     def _quantile(
-        self, values: np.ndarray, share: float, which: np.ndarray | None = None
+        self, values: np.ndarray, share: float, counted: np.ndarray | None = None
     ) -> np.ndarray:
         """Return a quantile of some values of each place; infinite where there are none."""
-        which = self.known if which is None else which
-        ordered = np.sort(np.where(which, values, np.inf), axis=1)
-        last = np.maximum(np.count_nonzero(which, axis=1) - 1, 0)
+        counted = self.known if counted is None else counted
+        ordered = np.sort(np.where(counted, values, np.inf), axis=1)
+        last = np.maximum(np.count_nonzero(counted, axis=1) - 1, 0)
         return ordered[np.arange(len(ordered)), np.floor(share * last).astype(np.intp)]
 
     def _fitted(self, weights: np.ndarray) -> np.ndarray:

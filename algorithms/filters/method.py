@@ -55,18 +55,6 @@ class Decisions(NamedTuple):
     rules: tuple[str, ...]  # names of the rules; the first has number 1
 
 
-class Toolbox(NamedTuple):
-    """A ground filter in the toolbox of QGIS."""
-
-    identifier: str  # second half of the id; it never changes
-    # Name and tooltip.
-    title: str
-    summary: str
-    about: str  # first paragraphs of the help
-    page: str  # its page in the folder docs
-    words: tuple[str, ...]  # search words, separated by commas; each text is translated as a whole
-
-
 class Method(NamedTuple):
     """One ground filter."""
 
@@ -85,7 +73,6 @@ class Method(NamedTuple):
     # The preset that does the same as the original program or paper, without additions.
     classic: str
     presets: Mapping[str, Any]  # the values of each preset that has some, for the help
-    toolbox: Toolbox  # its texts in the toolbox
     takes_known_ground: bool = False  # whether the pipeline starts from points of known ground
 
     def ground(

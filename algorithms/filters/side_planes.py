@@ -106,28 +106,28 @@ class Sides:
         if self._of_cells is None or own:
             found = self._tree.query(places, count, distance_upper_bound=self._reach)
         else:
-            found = distance, which = self._of_cells.nearest(points, count)
+            found = distance, numbers = self._of_cells.nearest(points, count)
             far = np.flatnonzero(distance[:, -1] > min(self._of_cells.certain, self._reach))
             if len(far):
-                distance[far], which[far] = self._tree.query(
+                distance[far], numbers[far] = self._tree.query(
                     places[far], count, distance_upper_bound=self._reach
                 )
-        distance, which = (np.ascontiguousarray(values.T[int(own) :]) for values in found)
-        return distance, which
+        distance, numbers = (np.ascontiguousarray(values.T[int(own) :]) for values in found)
+        return distance, numbers
 
     def _neighbours(self, points: Points, own: bool) -> tuple[np.ndarray, np.ndarray]:
         """Return the terms of which sums give planes, shape (10, 16, n), for the neighbours of
         points, and which of these count, shape (16, n).
         """
-        distance, which = self._nearest(points, own)
+        distance, numbers = self._nearest(points, own)
         # If several are equally far away, the tree may return any of them. Then none of them
         # counts.
         there = (distance[:-1] < distance[-1]) & (distance[:-1] >= self._apart)
-        which = np.where(there, which[:-1], 0)
-        terms = np.empty((10, *which.shape))
+        numbers = np.where(there, numbers[:-1], 0)
+        terms = np.empty((10, *numbers.shape))
         terms[0] = 1.0
         for term, of, place in zip(terms[1:4], self._ground, points):
-            np.subtract(of.take(which), place, out=term)
+            np.subtract(of.take(numbers), place, out=term)
         terms[1:4] *= there
         for product, (first, second) in zip(terms[4:], _PRODUCTS):
             np.multiply(terms[first], terms[second], out=product)
@@ -177,9 +177,9 @@ class _OfCells(NamedTuple):
         keys = squared.view(np.int64) & ~_LAST_BITS
         keys |= np.arange(len(steps) ** 2)
         keys.sort(axis=1)
-        some = keys[:, :count] & _LAST_BITS
-        some += np.arange(len(keys))[:, None] * len(steps) ** 2
-        return np.sqrt(squared.take(some)), self.number.take(there.take(some))
+        first = keys[:, :count] & _LAST_BITS
+        first += np.arange(len(keys))[:, None] * len(steps) ** 2
+        return np.sqrt(squared.take(first)), self.number.take(there.take(first))
 
 
 def _beside(terms: np.ndarray, there: np.ndarray, angles: np.ndarray) -> np.ndarray:

@@ -18,7 +18,7 @@ from ..core.parameters import ParameterSet, parameter
 from ..core.points import Points
 from ..core.progress import Progress
 from ..grids.cells import spacing
-from .method import TERRAINS, Method, Toolbox, of_preset
+from .method import TERRAINS, Method, of_preset
 from .pipeline import Pipeline
 from .stages import shared_pipeline
 from .stages.breaks import Plants
@@ -232,14 +232,6 @@ def _in_words(parameters: SlopeFilter) -> str:
     return f"Slope filter: {parameters.in_words(*names, 'cell_size', 'max_building_size')}."
 
 
-_ABOUT = (
-    "Finds the ground points of airborne or drone lidar by slopes, and writes a point cloud with"
-    " the new classes; nothing else in it changes. A point is not ground if it stands higher above"
-    " a neighbour than terrain can. The preset Automatic compares points on many scales and"
-    " follows the terrain; the preset Whitebox repeats WhiteboxTools' LidarGroundPointFilter.\n"
-    "Lengths are metres and angles degrees, whatever the unit of the CRS. The terrain model and"
-    " its hillshade are GeoTIFFs."
-)
 METHOD = Method(
     "slope",
     "Slope filter",
@@ -250,12 +242,4 @@ METHOD = Method(
     "max_building_size",
     CLASSIC,
     MANY_SCALES,
-    Toolbox(
-        "slopefilter",
-        "Classify ground (slope filter)",
-        "Finds the ground points of a lidar point cloud by the slopes between neighbouring points.",
-        _ABOUT,
-        "slope-filter",
-        ("slope,vosselman,whitebox,top-hat",),
-    ),
 )

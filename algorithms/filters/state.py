@@ -101,19 +101,19 @@ class GridState:
         self.points = points
         cells = np.zeros(self.cells.rows * self.cells.columns, dtype=bool)
         cells[self.cells.index[changed]] = True
-        which = self.cells.points_in(cells)
-        which = which[np.isfinite(points.z[which])]
-        some = points.take(which)
-        first = first_of_each(self.cells.index[which], cells.size, some.z, some.x, some.y)
-        lowest = np.concatenate((self.lowest[~cells[self.cell]], which[first]))
+        inside = self.cells.points_in(cells)
+        inside = inside[np.isfinite(points.z[inside])]
+        left = points.take(inside)
+        first = first_of_each(self.cells.index[inside], cells.size, left.z, left.x, left.y)
+        lowest = np.concatenate((self.lowest[~cells[self.cell]], inside[first]))
         self.lowest = lowest[np.argsort(self.cells.index[lowest])]
         heights = self.heights.values.ravel()
         heights[cells] = np.nan
         heights[self.cell] = points.z[self.lowest]
 
-    def remove(self, which: np.ndarray) -> None:
+    def remove(self, outliers: np.ndarray) -> None:
         """Take the lowest points of some cells for low outliers."""
-        self.heights.values[which] = np.nan
+        self.heights.values[outliers] = np.nan
         self.__dict__.pop("surveyed", None)
 
 
@@ -176,11 +176,11 @@ class State:
             return
         self.low_noise = found if self.low_noise is None else self.low_noise | found
         # Infinitely high, they are never the lowest, and not close to any surface.
-        which, heights = np.flatnonzero(found), self.points.z.copy()
-        heights[which] = np.inf
+        noise, heights = np.flatnonzero(found), self.points.z.copy()
+        heights[noise] = np.inf
         spacing_of, self.points = self.points, Points(self.points.x, self.points.y, heights)
         self.points.found.update(spacing_of.found)
-        in_threads(lambda grid: grid.take_again(self.points, which), self.grids)
+        in_threads(lambda grid: grid.take_again(self.points, noise), self.grids)
 
     def codes(self, not_ground: int) -> tuple[np.ndarray, float]:
         """Return the number of the rule that decided the cell of each point, plus `not_ground`

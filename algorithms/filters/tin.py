@@ -20,7 +20,7 @@ from ..core.points import Points
 from ..core.progress import Progress
 from ..grids.cells import spacing
 from ..tin.model_key_points import ModelKeyPoints
-from .method import TERRAINS, Method, Toolbox, of_preset
+from .method import TERRAINS, Method, of_preset
 from .pipeline import Pipeline
 from .stages import shared_pipeline
 from .stages.accept import NearSurface, OnlyKeyPoints
@@ -331,14 +331,6 @@ def _of_spacing(apart: float) -> str:
     return f", a tolerance that follows the noise, as points lie {apart:.2g} m apart"
 
 
-_ABOUT = (
-    "Finds the ground points of airborne or drone lidar by progressive TIN densification, and"
-    " writes a point cloud with the new classes; nothing else in it changes. The filter starts"
-    " from a sparse triangulation (TIN) of points that are surely ground. Round by round it adds"
-    " points that lie close to the TIN.\n"
-    "Lengths are metres and angles degrees, whatever the unit of the CRS. The terrain model and"
-    " its hillshade are GeoTIFFs."
-)
 METHOD = Method(
     "tin-densification",
     "TIN densification",
@@ -349,13 +341,5 @@ METHOD = Method(
     "max_building_size",
     CLASSIC,
     PRESETS,
-    Toolbox(
-        "tindensification",
-        "Classify ground (TIN densification)",
-        "Finds the ground points of a lidar point cloud, and makes a terrain model of them.",
-        _ABOUT,
-        "tin-densification",
-        ("tin,triangulation", "ptd,axelsson,densification"),
-    ),
     takes_known_ground=True,
 )

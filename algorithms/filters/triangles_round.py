@@ -32,9 +32,11 @@ class CellVertices:
         cell = cell[order]
         # Only the few cells with several are sorted by the places of these.
         equal = np.flatnonzero(cell[1:] == cell[:-1])
-        which = np.union1d(equal, equal + 1)
-        some = order[which]
-        order[which] = some[np.lexsort((z[some], y[some], x[some], cell[which]))]
+        shared = np.union1d(equal, equal + 1)
+        in_shared = order[shared]
+        order[shared] = in_shared[
+            np.lexsort((z[in_shared], y[in_shared], x[in_shared], cell[shared]))
+        ]
         x, y, self._vertex = x[order], y[order], vertices[order]
         # Of several at one place, the lowest.
         first = np.ones(len(order), dtype=bool)
@@ -62,18 +64,18 @@ class CellVertices:
                 inside = (row[part] >= reach) & (row[part] < rows - reach)
                 inside &= (column[part] >= reach) & (column[part] < columns - reach)
                 left = np.flatnonzero(inside & (corners[part, 0] < 0)) + part.start
-                for which, vertices in self._near(left, row, column, reach):
-                    corners[which] = self._found(x[which], y[which], vertices, reach)
+                for near, vertices in self._near(left, row, column, reach):
+                    corners[near] = self._found(x[near], y[near], vertices, reach)
 
         over_parts(search, len(x), _PLACES_A_PART, SILENT)
         return corners
 
     def _near(
-        self, which: np.ndarray, row: np.ndarray, column: np.ndarray, reach: int
+        self, asked: np.ndarray, row: np.ndarray, column: np.ndarray, reach: int
     ) -> Iterator[tuple[np.ndarray, np.ndarray]]:
         """Yield places, some at a time, with the vertices within `reach` cells, (k, q)."""
         width, lines = 2 * reach + 1, np.arange(-reach, reach + 1)[:, None]
-        start = (row[which] + lines) * self._cells.columns + column[which] - reach
+        start = (row[asked] + lines) * self._cells.columns + column[asked] - reach
         first = self._before.take(start)
         count = self._before.take(start + width) - first
         total = count.sum(axis=0)
@@ -83,7 +85,7 @@ class CellVertices:
             # Places are sorted by their vertices: none of the part has more than the last.
             most = total[order[: _TOGETHER // int(total[order[0]])]][-1]
             part, order = np.split(order, [max(_TOGETHER // int(most), 1)])
-            yield which[part], listed(first[:, part], count[:, part])
+            yield asked[part], listed(first[:, part], count[:, part])
 
     def _found(self, x: np.ndarray, y: np.ndarray, vertices: np.ndarray, reach: int) -> np.ndarray:
         """Return the corners round places from vertices (k, q) within `reach` cells, (q, 3)."""

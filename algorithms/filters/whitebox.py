@@ -182,7 +182,7 @@ class _Neighbourhood:
             places = np.column_stack(self._points.take(point)[:2])
             neighbours = self._tree.query_ball_point(places, radius * (1.0 + _ROUNDING))
             count = np.fromiter(map(len, neighbours), dtype=np.intp, count=len(point))
-            neighbour = np.concatenate([np.asarray(some, dtype=np.intp) for some in neighbours])
+            neighbour = np.concatenate([np.asarray(found, dtype=np.intp) for found in neighbours])
             point, radius = np.repeat(point, count), np.repeat(radius, count)
             distance = _distance(self._points, point, neighbour)
             near = distance <= radius
@@ -229,35 +229,35 @@ class _Strip:
 
     def lowest(self) -> np.ndarray:
         """Return the lowest height among each point asked for and its neighbours."""
-        which = np.flatnonzero(self._inner > self._outer)
-        limit, rim = self._inner[which], self._offsets[~self._is_inner]
-        for found, neighbour, _ in self._below(which, limit, rim, np.zeros(len(rim))):
+        unsure = np.flatnonzero(self._inner > self._outer)
+        limit, rim = self._inner[unsure], self._offsets[~self._is_inner]
+        for found, neighbour, _ in self._below(unsure, limit, rim, np.zeros(len(rim))):
             limit[found] = self._heights[neighbour]
         lowest = self._inner.copy()
-        lowest[which] = limit
+        lowest[unsure] = limit
         return lowest
 
     def rises(self, rule: Neighbours) -> np.ndarray:
         """Return which points asked for rise far above a neighbour."""
         own = self._points.z[self._own]
         above = rule.is_broken(own - self._inner, self._radius)
-        which = np.flatnonzero(rule.is_broken(own - self._outer, 0.0) & ~above)
-        own = own[which]
+        unsure = np.flatnonzero(rule.is_broken(own - self._outer, 0.0) & ~above)
+        own = own[unsure]
         limit = own - rule.height + _ROUNDING
         fall = np.maximum(rule.slope * self._gaps - rule.height, 0.0)
-        for found, neighbour, distance in self._below(which, limit, self._offsets, fall):
+        for found, neighbour, distance in self._below(unsure, limit, self._offsets, fall):
             is_above = rule.is_broken(own[found] - self._heights[neighbour], distance)
             limit[found[is_above]] = -np.inf
-        above[which] = limit == -np.inf
+        above[unsure] = limit == -np.inf
         return above
 
     def _below(
-        self, which: np.ndarray, limit: np.ndarray, offsets: np.ndarray, fall: np.ndarray
+        self, asked: np.ndarray, limit: np.ndarray, offsets: np.ndarray, fall: np.ndarray
     ) -> Iterator[tuple[np.ndarray, np.ndarray, np.ndarray]]:
-        """Yield some of `which` (k,), their neighbours below `limit` (k,), and the distances."""
+        """Yield those of `asked` (k,), their neighbours below `limit` (k,), and the distances."""
         # The caller lowers the limit as it learns more. A cell is searched if its lowest point lies
         # below the limit by more than the `fall` of its offset.
-        cell, point = self._cell[which], self._own[which]
+        cell, point = self._cell[asked], self._own[asked]
         for offset, least in zip(offsets, fall):
             self._alive()
             near = cell + offset

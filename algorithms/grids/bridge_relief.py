@@ -91,13 +91,13 @@ class Relief(NamedTuple):
         return outside | (column < self.border) | (column >= columns)
 
 
-def _medians(cells: Cells, z: np.ndarray, which: np.ndarray) -> np.ndarray:
+def _medians(cells: Cells, z: np.ndarray, indices: np.ndarray) -> np.ndarray:
     """Return the median of some points in each cell, the lower one of two; NaN without any."""
     heights = np.full(cells.rows * cells.columns, np.nan)
-    index = cells.index[which]
-    order = np.lexsort((z[which], index))
+    index = cells.index[indices]
+    order = np.lexsort((z[indices], index))
     codes, starts, counts = np.unique(index[order], return_index=True, return_counts=True)
-    heights[codes] = z[which[order[starts + (counts - 1) // 2]]]
+    heights[codes] = z[indices[order[starts + (counts - 1) // 2]]]
     return heights.reshape(cells.shape)
 
 

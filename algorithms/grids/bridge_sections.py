@@ -61,9 +61,9 @@ class Sections(NamedTuple):
         """Their directions in radians, from east to north."""
         return 2.0 * math.pi / _DIRECTIONS * self.direction
 
-    def take(self, which: np.ndarray | slice) -> Sections:
+    def take(self, selected: np.ndarray | slice) -> Sections:
         """Return the cross-sections that a mask, an index array or a slice selects."""
-        return Sections(*(column[which] for column in self))
+        return Sections(*(column[selected] for column in self))
 
     def middles(self, relief: Relief) -> np.ndarray:
         """Return the cells halfway, in the flattened grid."""
@@ -108,10 +108,10 @@ def raised_sections(relief: Relief, within: Callable[[Relief], np.ndarray], rule
     lower = np.minimum(heights[lines.start] - foot, heights[end] - other_foot)
     found[found] = np.abs(foot - other_foot)[found] <= _FEET * lower[found]
     if rule.is_strict:
-        some = lines.take(found)
-        clear = _is_clear(relief, compass, compass.back(some), foot[found], off[found])
-        some = some._replace(start=end[found])
-        clear &= _is_clear(relief, compass, some, other_foot[found], other_off[found])
+        left = lines.take(found)
+        clear = _is_clear(relief, compass, compass.back(left), foot[found], off[found])
+        left = left._replace(start=end[found])
+        clear &= _is_clear(relief, compass, left, other_foot[found], other_off[found])
         found[found] = clear
     return lines.take(found)
 
@@ -194,11 +194,11 @@ def _feet(
     for step in range(2, int(_VOID_FOOT / relief.cell) + 1):
         if not len(left):
             break
-        some = lines.take(left)
-        there_row = row[left] + compass.rows[some.direction, step]
-        there_column = column[left] + compass.columns[some.direction, step]
+        over_void = lines.take(left)
+        there_row = row[left] + compass.rows[over_void.direction, step]
+        there_column = column[left] + compass.columns[over_void.direction, step]
         inside = are_inside(there_row, there_column, relief.heights.shape)
-        left, cell = left[inside], compass.cells(some, step)[inside]
+        left, cell = left[inside], compass.cells(over_void, step)[inside]
         there = heights[cell]
         drop = _VOID_DROP + _VOID_SLOPE * step * length[left]
         found = is_ground[cell] & (there <= edge[left] - drop)

@@ -110,12 +110,12 @@ class Cells:
         """Rows and columns."""
         return self.rows, self.columns
 
-    def minimum(self, z: np.ndarray, which: np.ndarray | slice = slice(None)) -> np.ndarray:
+    def minimum(self, z: np.ndarray, selected: np.ndarray | slice = slice(None)) -> np.ndarray:
         """Return the lowest `z` (n,) of the points of a mask or indices, by default all, in each
         cell (rows, columns); NaN in empty cells.
         """
         lowest = np.full(self.rows * self.columns, np.inf)
-        lower_at(lowest, self.index[which], z[which])
+        lower_at(lowest, self.index[selected], z[selected])
         lowest[np.isinf(lowest)] = np.nan
         return lowest.reshape(self.shape)
 
@@ -132,21 +132,21 @@ class Cells:
         """Number of points in each cell; int32, shape (rows, columns)."""
         return self.counts_of(None)
 
-    def counts_of(self, which: np.ndarray | None) -> np.ndarray:
+    def counts_of(self, selected: np.ndarray | None) -> np.ndarray:
         """Return the number of selected points, a mask (n,) or None for all, in each cell."""
         counts = np.zeros(self.rows * self.columns, dtype=np.int32)
         for part in parts_of(len(self.index), _POINTS_A_COUNT):
             # Part by part, because bincount copies the indices to 8 bytes each.
             index = self.index[part]
-            if which is not None:
-                index = index.take(np.flatnonzero(which[part]))
+            if selected is not None:
+                index = index.take(np.flatnonzero(selected[part]))
             step = np.bincount(index)
             counts[: len(step)] += step
         return counts.reshape(self.shape)
 
-    def points_in(self, which: np.ndarray) -> np.ndarray:
+    def points_in(self, cells: np.ndarray) -> np.ndarray:
         """Return the indices of the points in the marked cells (rows, columns), in their order."""
-        marked = which.ravel()
+        marked = cells.ravel()
 
         def found(part: slice) -> np.ndarray:
             return np.flatnonzero(marked.take(self.index[part])) + part.start
@@ -173,10 +173,10 @@ class Cells:
         """Whether each cell has a point; boolean, shape (rows, columns)."""
         return self.holding(slice(None))
 
-    def holding(self, which: np.ndarray | slice) -> np.ndarray:
+    def holding(self, selected: np.ndarray | slice) -> np.ndarray:
         """Return which cells hold any of the selected points; boolean, shape (rows, columns)."""
         holding = np.zeros(self.rows * self.columns, dtype=bool)
-        holding[self.index[which]] = True
+        holding[self.index[selected]] = True
         return holding.reshape(self.shape)
 
     def interpolated(self, grid: np.ndarray, x: np.ndarray, y: np.ndarray) -> np.ndarray:
@@ -230,23 +230,26 @@ def first_of_each(index: np.ndarray, size: int, *keys: np.ndarray) -> np.ndarray
         occupied, index = np.unique(index, return_inverse=True)
         size = len(occupied)
     found, least = np.full(size, -1, dtype=np.intp), np.full(size, np.inf)
-    which, cell = None, index  # the elements between which the next key decides, None for all
+    candidates, cell = None, index  # the elements between which the next key decides, None for all
     if not keys:
         found[index] = np.arange(len(index))
     for key in keys:
-        values = key if which is None else key.take(which)
+        values = key if candidates is None else key.take(candidates)
         lowest = lower_at(least, cell, values)
         lowest = lowest[values.take(lowest) == least.take(cell.take(lowest))]
-        which, cell = lowest if which is None else which.take(lowest), cell.take(lowest)
-        found[cell] = which  # of elements with equal keys, the last one
-        equal = cell[found.take(cell) != which]
+        candidates, cell = (
+            lowest if candidates is None else candidates.take(lowest),
+            cell.take(lowest),
+        )
+        found[cell] = candidates  # of elements with equal keys, the last one
+        equal = cell[found.take(cell) != candidates]
         if not len(equal):
             break
         # Only few cells have several: the keys of others need not be compared.
         several = np.zeros(size, dtype=bool)
         several[equal], least[equal] = True, np.inf
         undecided = np.flatnonzero(several.take(cell))
-        which, cell = which.take(undecided), cell.take(undecided)
+        candidates, cell = candidates.take(undecided), cell.take(undecided)
     return found[found >= 0]
 
 
@@ -292,8 +295,8 @@ def lower_at(target: np.ndarray, index: np.ndarray, values: np.ndarray) -> np.nd
     found = [np.empty(0, dtype=np.intp)]
     for part in parts_of(len(index), _VALUES_A_PART):
         lower = np.flatnonzero(values[part] <= target.take(index[part]))
-        left, some = index[part].take(lower), values[part].take(lower)
-        cells, least = left, some
+        left, below = index[part].take(lower), values[part].take(lower)
+        cells, least = left, below
         for _ in range(_ROUNDS):
             if not len(cells):
                 break
@@ -302,7 +305,7 @@ def lower_at(target: np.ndarray, index: np.ndarray, values: np.ndarray) -> np.nd
             cells, least = cells.take(again), least.take(again)
         else:
             np.minimum.at(target, cells, least)
-        found.append(lower[some <= target.take(left)] + part.start)
+        found.append(lower[below <= target.take(left)] + part.start)
     return np.concatenate(found)
 
 
@@ -321,9 +324,9 @@ def spacing(points: Points, dense: float = 1.0, step: float = _SPACING_STEP) -> 
     return _rounded(points.found["apart"], dense, step)
 
 
-def keep_spacing(points: Points, some: Points) -> None:
+def keep_spacing(points: Points, sample: Points) -> None:
     """Let `spacing` return for points what it returns for some of them."""
-    blocks = Cells.over(some, _BLOCK)
+    blocks = Cells.over(sample, _BLOCK)
     points.found["apart"] = blocks._apart(blocks.counts)
 
 

@@ -324,12 +324,12 @@ def _low_plants(cells: Cells, z: np.ndarray, ground: np.ndarray, surface: np.nda
     return cells.counts_of(~ground & (above > low) & (above <= high))
 
 
-def _distances(which: np.ndarray, rows: np.ndarray, columns: np.ndarray) -> np.ndarray:
+def _distances(targets: np.ndarray, rows: np.ndarray, columns: np.ndarray) -> np.ndarray:
     """Return the distances in cells of some rows and columns to the nearest of some cells."""
     from scipy import ndimage
 
     # Of distances, scipy makes several planes of all cells.
-    nearest = ndimage.distance_transform_edt(~which, return_distances=False, return_indices=True)
+    nearest = ndimage.distance_transform_edt(~targets, return_distances=False, return_indices=True)
     row, column = nearest.take(rows, axis=1).take(columns, axis=2)
     north = np.subtract(row, rows[:, None], dtype=np.float64)
     east = np.subtract(column, columns, dtype=np.float64)
@@ -338,8 +338,8 @@ def _distances(which: np.ndarray, rows: np.ndarray, columns: np.ndarray) -> np.n
 
 def _places_in(places: np.ndarray, core: slice, inner: slice) -> tuple[slice, np.ndarray]:
     """Return which of ascending places lie in a part of the grid, and where in its margin."""
-    some = slice(*np.searchsorted(places, (core.start, core.stop)).tolist())
-    return some, places[some] - core.start + inner.start
+    inside = slice(*np.searchsorted(places, (core.start, core.stop)).tolist())
+    return inside, places[inside] - core.start + inner.start
 
 
 def _roughness(surface: np.ndarray, has_ground: np.ndarray) -> np.ndarray:

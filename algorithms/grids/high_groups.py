@@ -51,8 +51,8 @@ class HighGroups:
             near = within_square(np.maximum, cells.holding(hanging), 1)
             left = cells.points_in(within_square(np.maximum, near, 1))
             left = left[~found[left]]
-        which = np.flatnonzero(found)
-        found[which] = self._are_small(points.take(which))
+        indices = np.flatnonzero(found)
+        found[indices] = self._are_small(points.take(indices))
         return found
 
     def _hanging(self, cells: Cells, cell: np.ndarray, z: np.ndarray) -> np.ndarray:

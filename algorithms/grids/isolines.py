@@ -123,14 +123,14 @@ def _segments(
         heights[rows + down, columns + right] for down, right in ((0, 0), (0, 1), (1, 1), (1, 0))
     )
     middle = sum(squares) / 4.0 >= level * interval
-    which, starts, ends = [], [], []
+    crossing, starts, ends = [], [], []
     for number in range(2):
         start, end = (_table(number, side)[case, middle.astype(int)] for side in (0, 1))
-        some = np.flatnonzero(start != _NONE)
-        which.append(some)
-        starts.append(start[some])
-        ends.append(end[some])
-    index = np.concatenate(which)
+        lines = np.flatnonzero(start != _NONE)
+        crossing.append(lines)
+        starts.append(start[lines])
+        ends.append(end[lines])
+    index = np.concatenate(crossing)
     level, rows, columns = level[index], rows[index], columns[index]
     nodes_and_places = [
         _nodes(heights, level, rows, columns, np.concatenate(edges), interval, row)

@@ -82,10 +82,12 @@ def near_rings(
         touches = (firsts < lasts) & (low[:, 0] <= east) & (high[:, 0] >= west)
         for edge in np.flatnonzero(touches):
             beside = x[firsts[edge] : lasts[edge]]
-            which = firsts[edge] + np.flatnonzero(
+            places = firsts[edge] + np.flatnonzero(
                 (beside >= low[edge, 0]) & (beside <= high[edge, 0])
             )
-            near[which] |= _from_edge(x[which], y[which], ring[edge], following[edge]) <= distance
+            near[places] |= (
+                _from_edge(x[places], y[places], ring[edge], following[edge]) <= distance
+            )
     result[order] = near
     return result
 
@@ -130,15 +132,15 @@ class NearestHeights:
         heights = np.full((2, len(line)), np.nan)
         if self._tree is not None and len(line):
             points, count = self._points, min(_NEAREST, len(self._points))
-            far, which = self._tree.query(
+            far, nearest = self._tree.query(
                 line[:, :2], list(range(1, count + 1)), distance_upper_bound=self._reach
             )
             near = np.isfinite(far)
-            which = np.where(near, which, 0)
-            side = ((points[which, :2] - line[:, None, :2]) * across[:, None]).sum(axis=2)
+            nearest = np.where(near, nearest, 0)
+            side = ((points[nearest, :2] - line[:, None, :2]) * across[:, None]).sum(axis=2)
             for number, there in enumerate((near & (side > 0.0), near & (side <= 0.0))):
                 first = np.argmax(there, axis=1)
-                found = points[which[np.arange(len(line)), first], 2]
+                found = points[nearest[np.arange(len(line)), first], 2]
                 heights[number] = np.where(there.any(axis=1), found, np.nan)
             heights = np.where(np.isnan(heights), heights[::-1], heights)
         places = [line[:, :2] + sign * _BESIDE * across for sign in (1.0, -1.0)]

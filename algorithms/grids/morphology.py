@@ -76,7 +76,7 @@ def closing(cells: np.ndarray, radius: float, shrink: float | None = None) -> np
     return _extreme(np.minimum, grown.view(np.uint8), shrink).view(bool)
 
 
-def within_square(which: np.ufunc, grid: np.ndarray, reach: int) -> np.ndarray:
+def within_square(pick: np.ufunc, grid: np.ndarray, reach: int) -> np.ndarray:
     """Return the extreme (`numpy.minimum` or `numpy.maximum`) of a grid within `reach` rows
     and columns of each cell; cells beyond the grid are ignored.
     """
@@ -86,8 +86,8 @@ def within_square(which: np.ufunc, grid: np.ndarray, reach: int) -> np.ndarray:
 
     def fill(first: int) -> None:
         last, before = min(first + strip, rows), min(first, reach)
-        part = _spread(which, grid[first - before : last + reach], reach)
-        result[first:last] = _spread(which, part[before:][: last - first].T, reach).T
+        part = _spread(pick, grid[first - before : last + reach], reach)
+        result[first:last] = _spread(pick, part[before:][: last - first].T, reach).T
 
     in_threads(fill, range(0, rows, strip))
     return result
@@ -127,14 +127,14 @@ def _ranked(a: np.ndarray, b: np.ndarray, c: np.ndarray) -> tuple[np.ndarray, ..
     return np.minimum(low, middle), np.maximum(low, middle), np.maximum(high, c)
 
 
-def _spread(which: np.ufunc, grid: np.ndarray, reach: int) -> np.ndarray:
+def _spread(pick: np.ufunc, grid: np.ndarray, reach: int) -> np.ndarray:
     """Return the extreme of `reach` rows before and after each row, in steps that double."""
     done = 0
     while done < reach:
         step = min(done + 1, reach - done)  # a longer step would skip some cells at the border
         spread = grid.copy(order="K")
-        which(spread[step:], grid[:-step], out=spread[step:])
-        which(spread[:-step], grid[step:], out=spread[:-step])
+        pick(spread[step:], grid[:-step], out=spread[step:])
+        pick(spread[:-step], grid[step:], out=spread[:-step])
         grid, done = spread, done + step
     return grid
 
@@ -143,7 +143,7 @@ def _reach(radius: float) -> int:
     return int(round(radius, 6))  # without rounding, 2.9999999 would be 2
 
 
-def _extreme(which: np.ufunc, padded: np.ndarray, radius: float) -> np.ndarray:
+def _extreme(pick: np.ufunc, padded: np.ndarray, radius: float) -> np.ndarray:
     """Return the minimum or the maximum within a disc round each cell whose disc is in the grid."""
     reach = _reach(radius)
     rows, columns = (side - 2 * reach for side in padded.shape)
@@ -153,7 +153,7 @@ def _extreme(which: np.ufunc, padded: np.ndarray, radius: float) -> np.ndarray:
 
     def fill(first: int) -> None:
         last = min(first + strip, rows)
-        _in_strip(which, padded[first : last + 2 * reach], disc, result[first:last])
+        _in_strip(pick, padded[first : last + 2 * reach], disc, result[first:last])
 
     in_threads(fill, range(0, rows, strip))
     return result
@@ -168,7 +168,7 @@ def _rows_of_disc(radius: float) -> list[tuple[int, list[int]]]:
 
 
 def _in_strip(
-    which: np.ufunc, padded: np.ndarray, disc: list[tuple[int, list[int]]], result: np.ndarray
+    pick: np.ufunc, padded: np.ndarray, disc: list[tuple[int, list[int]]], result: np.ndarray
 ) -> None:
     """Fill `result` with the extreme within a disc round each cell of a strip."""
     # A disc is a stack of rows. The extreme along rows of each length is found once, by doubling
@@ -187,12 +187,12 @@ def _in_strip(
     for half, rows_of_disc in disc:
         wanted = 2 * half + 1
         while 2 * length <= wanted:
-            run = which(run[:-length], run[length:], out=spare[: run.size - length])
+            run = pick(run[:-length], run[length:], out=spare[: run.size - length])
             spare, swap = swap, spare
             length *= 2
         shift = wanted - length  # two runs that overlap make a longer one
-        full = which(run[:-shift], run[shift:], out=line[: run.size - shift]) if shift else run
+        full = pick(run[:-shift], run[shift:], out=line[: run.size - shift]) if shift else run
         for row in rows_of_disc:
             first = row * width + reach - half
-            which(extreme, full[first : first + count], out=extreme)
+            pick(extreme, full[first : first + count], out=extreme)
     result[:] = ends.reshape(rows, width)[:, :columns]

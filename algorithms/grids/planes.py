@@ -9,7 +9,7 @@ def means_and_moments(total: np.ndarray, *sums: np.ndarray) -> tuple[np.ndarray,
     """Return the means of x, y and z, and the central second moments xx, xy, yy, xz and yz, given
     the number of points and their sums of x, y, z, xx, xy, yy, xz and yz.
     """
-    x, y, z, xx, xy, yy, xz, yz = (some / total for some in sums)
+    x, y, z, xx, xy, yy, xz, yz = (column / total for column in sums)
     return x, y, z, xx - x * x, xy - x * y, yy - y * y, xz - x * z, yz - y * z
 
 

@@ -75,9 +75,9 @@ class PointCloud:
             if isinstance(value, np.ndarray) and name != "records"
         }
 
-    def take(self, which: np.ndarray | slice) -> PointCloud:
+    def take(self, selected: np.ndarray | slice) -> PointCloud:
         """Return the points that a mask, indices or a slice select, without the records."""
-        columns: dict[str, Any] = {name: column[which] for name, column in self.columns.items()}
+        columns: dict[str, Any] = {name: column[selected] for name, column in self.columns.items()}
         return replace(self, records=None, **columns)
 
     def parts(self) -> Iterator[tuple[slice, PointCloud]]:
@@ -85,10 +85,10 @@ class PointCloud:
         for where in parts_of(self.count, _PART):
             yield where, self.take(where)
 
-    def coordinates(self, which: slice = slice(None)) -> tuple[np.ndarray, np.ndarray]:
+    def coordinates(self, selected: slice = slice(None)) -> tuple[np.ndarray, np.ndarray]:
         """Return x and y of points in units of the CRS, float64 (n,)."""
         (east, north, _), (x0, y0, _) = self.scale, self.offset
-        return self.x[which] * east + x0, self.y[which] * north + y0
+        return self.x[selected] * east + x0, self.y[selected] * north + y0
 
     @cached_property
     def lowest(self) -> tuple[int, int]:
@@ -123,32 +123,32 @@ class PointCloud:
         )
         return replace(survey_frame(self.crs), origin=(x, y))
 
-    def points(self, which: np.ndarray | slice, frame: Frame | None = None) -> Points:
+    def points(self, selected: np.ndarray | slice, frame: Frame | None = None) -> Points:
         """Return the points of a mask or indices in metres from the origin of a frame, that of the
         survey, by default `frame`; refuse a CRS that is not projected.
         """
         # Files with equal scales give equal numbers for equal places, whatever their offsets.
-        return Points(*self._metres(which, frame, 3))
+        return Points(*self._metres(selected, frame, 3))
 
     def places(
-        self, which: np.ndarray | slice, frame: Frame | None = None
+        self, selected: np.ndarray | slice, frame: Frame | None = None
     ) -> tuple[np.ndarray, np.ndarray]:
         """Return x and y as in `points`, without the heights."""
-        x, y = self._metres(which, frame, 2)
+        x, y = self._metres(selected, frame, 2)
         return x, y
 
     def _metres(
-        self, which: np.ndarray | slice, frame: Frame | None, count: int
+        self, selected: np.ndarray | slice, frame: Frame | None, count: int
     ) -> list[np.ndarray]:
         """Return the first one, two or three coordinates of points in metres."""
         self.require_projected()
-        if isinstance(which, np.ndarray) and which.dtype == bool:
-            which = np.flatnonzero(which)
+        if isinstance(selected, np.ndarray) and selected.dtype == bool:
+            selected = np.flatnonzero(selected)
         axes = self._axes(self.frame if frame is None else frame)[:count]
         columns = [self.x, self.y, self.z][:count]
-        chosen = None if isinstance(which, slice) else which
+        chosen = None if isinstance(selected, slice) else selected
         if chosen is None:
-            columns = [column[which] for column in columns]
+            columns = [column[selected] for column in columns]
         length = len(columns[0]) if chosen is None else len(chosen)
         metres = [np.empty(length) for _ in axes]
 
@@ -240,12 +240,12 @@ def _multiple(value: float, scale: float) -> tuple[float, float]:
     return whole, rest if abs(rest) > _WHOLE * scale else 0.0
 
 
-def _picked(columns: Sequence[np.ndarray], which: np.ndarray | slice) -> list[np.ndarray]:
+def _picked(columns: Sequence[np.ndarray], indices: np.ndarray | slice) -> list[np.ndarray]:
     """Return the values of columns at some indices."""
-    if isinstance(which, np.ndarray):
-        first, last = int(which.min()), int(which.max())
+    if isinstance(indices, np.ndarray):
+        first, last = int(indices.min()), int(indices.max())
         # If indices are ordered and close together, all values between are read in one go.
-        if last - first < _LOOSE * len(which):
-            near, places = slice(first, last + 1), (which - first).astype(np.intp)
+        if last - first < _LOOSE * len(indices):
+            near, places = slice(first, last + 1), (indices - first).astype(np.intp)
             return [np.ascontiguousarray(column[near]).take(places) for column in columns]
-    return [column[which] for column in columns]
+    return [column[indices] for column in columns]

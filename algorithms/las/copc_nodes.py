@@ -188,10 +188,10 @@ def _pages(
             below = []
             for start, size in pages:
                 entries = _read_page(layout, file, start, size)
-                which = wanted(entries["key"])
-                branches = entries[which & (entries["count"] == -1)]
+                are_wanted = wanted(entries["key"])
+                branches = entries[are_wanted & (entries["count"] == -1)]
                 below += [(int(branch["start"]), int(branch["size"])) for branch in branches]
-                yield start, entries, which
+                yield start, entries, are_wanted
             pages = below
 
 

@@ -83,23 +83,23 @@ class WaitingPoints:
         self._parts: list[tuple[int, np.ndarray]] = []
         taken_cells = [TakenCells(depth) for depth in range(branch.depths)]
         for records in parts:
-            some = SortedPoints.of(branch, records, room.cube, taken_cells, room.progress)
+            points = SortedPoints.of(branch, records, room.cube, taken_cells, room.progress)
             rows = np.empty((len(records), _NUMBER + records.shape[1]), dtype=np.uint8)
-            column(rows, 0, "<u4")[:] = some.order
-            rows[:, _NUMBER:] = records[some.order]
-            self._parts.append((room.file.seek(0, 2), some.counts.astype(np.uint32)))
+            column(rows, 0, "<u4")[:] = points.order
+            rows[:, _NUMBER:] = records[points.order]
+            self._parts.append((room.file.seek(0, 2), points.counts.astype(np.uint32)))
             room.file.write(rows.data)
             reach_disk(room.file)
-            self.counts += some.counts
+            self.counts += points.counts
             self._width = rows.shape[1]
 
     def records(self, groups: np.ndarray) -> np.ndarray:
         """Return the points of some depths and branches in file order."""
         records = np.empty((self.counts[groups].sum(), self._width - _NUMBER), dtype=np.uint8)
         start = 0
-        for some in self._read(groups):
-            records[start : start + len(some)] = some
-            start += len(some)
+        for points in self._read(groups):
+            records[start : start + len(points)] = points
+            start += len(points)
         return records
 
     def _read(self, groups: np.ndarray) -> Iterator[np.ndarray]:

@@ -24,8 +24,8 @@ class SeveralReturns:
     def __init__(self, cloud: PointCloud) -> None:
         self._counts = cloud.number_of_returns
 
-    def __getitem__(self, which: np.ndarray) -> np.ndarray:
-        return self._counts[which] > 1
+    def __getitem__(self, indices: np.ndarray) -> np.ndarray:
+        return self._counts[indices] > 1
 
 
 def count_from_one(cloud: PointCloud) -> PointCloud:
@@ -51,11 +51,11 @@ def count_from_one(cloud: PointCloud) -> PointCloud:
 
 
 def _is_first_of_several(zero: np.ndarray, last: np.ndarray, several: np.ndarray) -> bool:
-    firsts, lasts = (int(np.count_nonzero(several & which)) for which in (zero, last))
+    firsts, lasts = (int(np.count_nonzero(several & mask)) for mask in (zero, last))
     return firsts > 0 and lasts <= _MOST_WRONG * firsts and bool(np.any(several & ~zero))
 
 
 def _are_both_from_zero(zero: np.ndarray, last: np.ndarray, total: np.ndarray) -> bool:
     several = total > 0
-    firsts, lasts = (int(np.count_nonzero(several & which)) for which in (zero, last))
+    firsts, lasts = (int(np.count_nonzero(several & mask)) for mask in (zero, last))
     return firsts > 0 and abs(firsts - lasts) <= _CUT_OFF * firsts and not several.all()

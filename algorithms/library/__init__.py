@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ..tools import COMPOSITIONS, FILE_TOOLS, MAP_TOOLS, POINT_TOOLS
+from ..tools.listing import COMPOSITIONS, FILE_TOOLS, MAP_TOOLS, POINT_TOOLS
 
 # What functions on arrays return, and the modules of this folder that have it.
 ARRAY_CLASSES = {"Block": "blocks", "Features": "features", "Raster": "rasters"}

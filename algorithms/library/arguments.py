@@ -6,13 +6,29 @@ import inspect
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
+from ..survey.feature_files import FORMATS as WRITTEN_FORMATS
 from ..survey.vector_files import FORMATS
 from ..tools.check.reading import FORMATS as POINT_FORMATS
+from ..tools.declaration import CLOUD_OUTPUT, LIST_OUTPUT, Output, help_of_area, with_note
+from ..tools.declaration import CRS as DECLARED_CRS
 from ..tools.input_groups import GROUPS
 
+MOST = 2.0  # gigabytes of remote point clouds that are fetched unless the user allows more
+LIMIT_HELP = (
+    "Gigabytes that may be downloaded of a remote point cloud. The log tells how many it takes"
+    " before the download begins; more are refused."
+)
 REQUIRED = inspect.Parameter.empty
 _PATH = "str | PathLike[str]"
 _LITERAL = "Literal[{}]"
+# What the help of an output says at its end, by its kind.
+_WRITTEN = {
+    "raster": "Written as .tif.",
+    "features": f"Written as {', '.join(WRITTEN_FORMATS)}; all but .geojson need pyogrio.",
+    "page": "Written as .html.",
+    "table": "Written as .csv.",
+    "cloud": "Written as .las, .laz or .copc.laz, or into a folder if there are many inputs.",
+}
 
 
 class Kind(NamedTuple):
@@ -20,19 +36,35 @@ class Kind(NamedTuple):
 
     type: str
     words: str
+    note: str = ""  # what the help of each argument of this kind says at its end
 
 
 KINDS = {
-    "clouds": Kind(f"{_PATH} | Iterable[{_PATH}]", "path, address, or iterable of them"),
+    "clouds": Kind(
+        f"{_PATH} | Iterable[{_PATH}]",
+        "path, address, or iterable of them",
+        "Files, folders, virtual point clouds (.vpc), lists of files (.txt), or addresses (https,"
+        " s3, gs, az) of remote point clouds. All of them together are one survey.",
+    ),
     "cloud": Kind(_PATH, "path or address"),
     "path": Kind(_PATH, "path"),
     "number": Kind("float", "float"),
     "raster": Kind("Any", "path, Raster or xarray.DataArray"),
-    "polygons": Kind("Any", "path or polygons"),
-    "lines": Kind("Any", "path or lines"),
-    "points": Kind("Any", "path, points or array of shape (n, 3)"),
-    "crs": Kind("Any", "str, int or pyproj.CRS"),
-    "extent": Kind("Sequence[float]", "four floats"),
+    "polygons": Kind("Any", "path or polygons", f"Files are {FORMATS}."),
+    "lines": Kind("Any", "path or lines", f"Files are {FORMATS}."),
+    "points": Kind(
+        "Any",
+        "path, points, or array of shape (n, 3) in the CRS of the points",
+        f"Files are {POINT_FORMATS}.",
+    ),
+    "crs": Kind(
+        "Any",
+        "str, int or pyproj.CRS",
+        "An EPSG code, such as EPSG:2230 or EPSG:2230+6360 (with heights), or WKT.",
+    ),
+    "extent": Kind(
+        "Sequence[float]", "four floats (xmin, ymin, xmax, ymax)", "It is in the CRS of the points."
+    ),
     "text": Kind("str", "str"),
     "words": Kind("Sequence[str]", "sequence of str"),
     "progress": Kind(
@@ -48,14 +80,14 @@ class Argument:
 
     name: str  # of the keyword; with hyphens, that of the option
     kind: Kind
-    help: str  # without a full stop
+    help: str
     default: Any = None
     choices: tuple[str, ...] = ()  # of words
 
     @classmethod
     def of(cls, name: str, kind: str, help: str, default: Any = None) -> Argument:
         """Return an argument of one of the `KINDS`."""
-        return cls(name, KINDS[kind], help, default)
+        return cls(name, KINDS[kind], with_note(help, KINDS[kind].note), default)
 
     @classmethod
     def choice(cls, name: str, choices: Any, default: str, help: str) -> Argument:
@@ -70,85 +102,60 @@ def path(name: str, help: str, default: Any = None) -> Argument:
     return Argument.of(name, "path", help, default)
 
 
-SOURCES = Argument.of(
-    "sources",
-    "clouds",
-    "files, folders, virtual point clouds (.vpc), lists of files (.txt), or addresses (https, s3,"
-    " gs, az) of remote point clouds; all of them together are one survey",
-    REQUIRED,
-)
-OUTPUT = path(
-    "output",
-    "the file to write (.las, .laz or .copc.laz), or a folder if there are many inputs",
-    REQUIRED,
-)
-CRS = Argument.of(
-    "crs",
-    "crs",
-    "the CRS of the points, for files that state none or a wrong one: an EPSG code, such as"
-    " EPSG:2230 or EPSG:2230+6360 (with heights), or WKT; it replaces what files state",
-)
-CRS_OF_OUTPUT = replace(
-    CRS, help=f"{CRS.help}; written point clouds keep the records that the files have"
-)
+def of_output(output: Output) -> Argument:
+    """Return the argument for an output."""
+    help = with_note(output.help, _WRITTEN.get(output.kind, ""))
+    name = output.option.replace("-", "_")
+    return path(name, help, REQUIRED if output.is_main else None)
+
+
+SOURCES = Argument.of("sources", "clouds", "", REQUIRED)
+OUTPUT = of_output(CLOUD_OUTPUT)
+CRS = Argument.of(DECLARED_CRS.name, DECLARED_CRS.kind, DECLARED_CRS.help)
 PROGRESS = Argument.of(
     "progress",
     "progress",
-    "receives the share of the work that is done, 0 to 1, and may raise `Cancelled`; a `Progress`"
-    " receives messages, too",
+    "Receives the share of the work that is done, 0 to 1, and may raise `Cancelled`. A `Progress`"
+    " receives messages, too.",
 )
 SCHEDULER = Argument.of(
     "scheduler",
     "text",
-    "with many files: the address of a Dask scheduler, such as tcp://host:8786, whose workers do"
-    " the work, or the word processes; without it, threads of this process do it",
+    "With many files: the address of a Dask scheduler, such as tcp://host:8786, whose workers do"
+    " the work. Empty: this computer does it, a command in processes, and a function in threads,"
+    " or with the word processes in processes.",
 )
 # Where the points may be on the web.
 REMOTE = (
     path(
         "cache",
-        "the folder that keeps what is fetched of remote point clouds; without it that of"
-        " BARE_EARTH_CACHE, or one of the user",
+        "The folder that keeps what is fetched of remote point clouds. Empty: that of"
+        " BARE_EARTH_CACHE, or one of the user.",
     ),
-    Argument.of(
-        "limit", "number", "gigabytes that may be fetched of remote point clouds; without it 2"
-    ),
+    Argument.of("limit", "number", f"{LIMIT_HELP} Empty: {MOST:g}."),
 )
-VPC = path(
-    "vpc", "with many files: the virtual point cloud that lists the results, by default in OUTPUT"
-)
+VPC = of_output(LIST_OUTPUT)
 
 
 def of_group(kind: str) -> tuple[Argument, ...]:
     """Return the arguments for an input that has several."""
-    formats = {"formats": FORMATS, "point_formats": POINT_FORMATS}
     return tuple(
-        Argument.of(part.name, part.kind, part.help.format(**formats))
+        Argument.of(part.name, part.kind, part.help)
         for part in GROUPS[kind]
-        if part.help
+        if part.kind != "attribute"
     )
 
 
 # Constraints of functions that find the water themselves where it is automatic.
 WITH_AUTOMATIC_WATER = tuple(
-    replace(argument, help=f"{argument.help}; the word automatic: the water is found first")
+    replace(argument, help=f"{argument.help} The word automatic: the water is found first.")
     if argument.name == "water"
     else argument
     for argument in of_group("constraints")
 )
 
 
-def area(what: str, more: str = "") -> tuple[Argument, Argument]:
-    """Return the arguments for a rectangle and for polygons; `what` starts their help."""
-    return (
-        Argument.of(
-            "extent",
-            "extent",
-            f"xmin, ymin, xmax, ymax: {what} this rectangle, in the CRS of the points{more}",
-        ),
-        Argument.of(
-            "boundary",
-            "polygons",
-            f"{what} these polygons ({FORMATS}); with an extent only what lies in both",
-        ),
-    )
+def area(help: str) -> tuple[Argument, Argument]:
+    """Return the arguments for a rectangle and for polygons, given the help of an area."""
+    extent, boundary = help_of_area(help)
+    return Argument.of("extent", "extent", extent), Argument.of("boundary", "polygons", boundary)

@@ -12,6 +12,7 @@ from ..core.errors import BareEarthError
 from ..core.progress import Progress
 from ..core.threads import available_cpus, may_use
 from ..las.cloud import PointCloud
+from ..tools import file_tool
 from ..tools.check.accuracy import Accuracy
 from ..tools.check.checking import CheckOptions, check_points
 from ..tools.check.residuals import layer_of, residuals_of
@@ -133,8 +134,8 @@ def of_water() -> Function:
     """Return the function `water`."""
     return Function(
         "water",
-        "Find lakes and rivers.\nThe polygons and lines are those that water() writes for a file"
-        " with the same points.",
+        f"{file_tool('water').line}\nThe polygons and lines are those that water() writes for a"
+        " file with the same points.",
         POINTS,
         (GROUND, *ATTRIBUTES, *LAST),
         (Water, GroundClasses),

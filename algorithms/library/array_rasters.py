@@ -9,7 +9,7 @@ from typing import Any
 
 from ..rasters.content import NO_CELLS
 from ..rasters.geotiff import read_raster
-from ..tools import FILE_TOOLS
+from ..tools import file_tool
 from ..tools.contours import Contours, contours_of
 from ..tools.off_terrain import OffTerrain, remove_objects_file
 from ..tools.relief import KINDS, ReliefKinds, ReliefPictures, draw_reliefs
@@ -25,8 +25,8 @@ _RASTER = (
     Argument.of(
         "raster",
         "raster",
-        'a raster of heights, such as terrain(points)["dtm"], an xarray.DataArray with x and y, or'
-        " a file",
+        'A raster of heights, such as terrain(points)["dtm"], an xarray.DataArray with x and y, or'
+        " a file.",
         REQUIRED,
     ),
 )
@@ -43,8 +43,8 @@ def of_contours() -> Function:
     """Return the function `contours`."""
     return Function(
         "contours",
-        "Draw contour lines of a terrain model, of its heights smoothed for the lines only.\nThe"
-        " lines are those that contours() writes for a file with the same cells.",
+        f"{file_tool('contours').help} The lines are those that contours() writes for a file with"
+        " the same cells.",
         _RASTER,
         (arguments.PROGRESS,),
         (Contours,),
@@ -69,9 +69,8 @@ def of_relief() -> Function:
     """Return the function `relief`."""
     return Function(
         "relief",
-        "Show mounds, walls, ditches and old paths: sky view, openness, local relief, VAT.\nThe"
-        " cells are those that relief() writes for a file with the same cells; cells without data"
-        " are NaN, or 0 in pictures.",
+        f"{file_tool('relief').line}\nThe cells are those that relief() writes for a file with the"
+        " same cells; cells without data are NaN, or 0 in pictures.",
         _RASTER,
         (arguments.PROGRESS,),
         (ReliefKinds, ReliefPictures),
@@ -93,11 +92,11 @@ def _bare(values: SimpleNamespace, sets: list[Any]) -> Raster:
 
 def of_removal() -> Function:
     """Return the function `remove_off_terrain_objects`."""
-    about = FILE_TOOLS["remove-off-terrain-objects"].help
     return Function(
         "remove_off_terrain_objects",
-        f"{about[0].upper()}{about[1:]}.\nThe cells are those that remove_off_terrain_objects()"
-        " writes for a file with the same cells; cells without data are NaN.",
+        f"{file_tool('remove-off-terrain-objects').line}\nThe cells are those that"
+        " remove_off_terrain_objects() writes for a file with the same cells; cells without data"
+        " are NaN.",
         _RASTER,
         (arguments.PROGRESS,),
         (OffTerrain,),

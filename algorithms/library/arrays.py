@@ -96,6 +96,12 @@ def _ground_of(values: SimpleNamespace, sets: list[Any]) -> np.ndarray:
     return np.isin(_classes(values, sets), ground.ground_classes)
 
 
+def _area_of(command: str) -> tuple[Argument, ...]:
+    """Return the arguments for the area of a tool."""
+    (area,) = (declared for declared in map_tool(command).inputs if declared.kind == "area")
+    return arguments_of(area)
+
+
 def _of_classes(
     name: str, about: str, gives: Kind, run: Callable[[SimpleNamespace, list[Any]], Any]
 ) -> Function:
@@ -105,7 +111,7 @@ def _of_classes(
         f"{about}\nThe labels are those of classify() on a file with the same points.",
         POINTS,
         (
-            *ATTRIBUTES, *arguments.area("classify only points in", "; points nearby help"),
+            *ATTRIBUTES, *_area_of("classify"),
             *arguments.of_group("corrections"), *LAST,
         ),
         (Selection, Resources),
@@ -116,7 +122,7 @@ def _of_classes(
 
 
 def _of_tool(
-    name: str, about: str, gives: Kind, value: Callable[[TileResult], Any], *fixed: ParameterSet
+    name: str, gives: Kind, value: Callable[[TileResult], Any], *fixed: ParameterSet
 ) -> Function:
     """Return the function of a tool for points; it does without the sets that are fixed."""
     tool = point_tool(tool_commands()[name])
@@ -131,7 +137,7 @@ def _of_tool(
     sets = tuple(kind for kind in tool.sets if kind not in map(type, fixed))
     inputs = [argument for declared in tool.inputs for argument in arguments_of(declared)]
     return Function(
-        name, about, POINTS, (GROUND, *ATTRIBUTES, *inputs, *LAST),
+        name, tool.line, POINTS, (GROUND, *ATTRIBUTES, *inputs, *LAST),
         (*sets, Resources), run, gives=gives,
     )  # fmt: skip
 
@@ -195,17 +201,17 @@ def _terrain_of_blocks(values: SimpleNamespace, step: MakeRasters) -> dict[str, 
 
 def _of_terrain() -> Function:
     choices = ", ".join(f'"{name}"' for name in RASTERS)
-    kinds = " ".join(f"{name}: {row.help}" for name, row in RASTERS.items()).rstrip(".")
+    kinds = " ".join(f"{name}: {row.help}" for name, row in RASTERS.items())
     kind = Kind(f"Literal[{choices}] | Sequence[Literal[{choices}]]", "str or sequence of str")
     return Function(
         "terrain",
-        "Make rasters of the terrain and of what stands on it.\nThe cells are those that terrain()"
-        " writes for a file with the same points; cells without data are NaN, or 0 in pictures.",
+        f"{map_tool('terrain').line}\nThe cells are those that terrain() writes for a file with the"
+        " same points; cells without data are NaN, or 0 in pictures.",
         POINTS,
         (
-            Argument("rasters", kind, f"which rasters to make. {kinds}", ("dtm",)),
+            Argument("rasters", kind, f"The rasters to make. {kinds}", ("dtm",)),
             GROUND, *ATTRIBUTES, *arguments.of_group("target"),
-            *arguments.area("make the rasters only in"), *arguments.of_group("constraints"), *LAST,
+            *_area_of("terrain"), *arguments.of_group("constraints"), *LAST,
         ),
         (GroundClasses, ArrayTerrain, SurfaceModel, Resources),
         _terrain,
@@ -226,8 +232,7 @@ def _of_raster(name: str, about: str, gives: str) -> Function:
         f"{about}\nThe cells are those of the raster that terrain() makes.",
         POINTS,
         (
-            GROUND, *ATTRIBUTES, *arguments.of_group("target"),
-            *arguments.area("make the raster only in"), *LAST,
+            GROUND, *ATTRIBUTES, *arguments.of_group("target"), *_area_of("terrain"), *LAST,
         ),
         (GroundClasses, ErrorCells, Resources),
         run,
@@ -236,10 +241,8 @@ def _of_raster(name: str, about: str, gives: str) -> Function:
 
 
 def _of_blocks() -> Function:
-    classified = "the points are classified already: nothing is found in them anew"
-    extent = (
-        "xmin, ymin, xmax, ymax: only blocks that touch this rectangle, in the CRS of the points"
-    )
+    classified = "The points are classified already: nothing is found in them anew."
+    extent = "Only blocks that touch this rectangle."
     return Function(
         "blocks",
         "Cut a survey of files into blocks, each of them a task for a cluster.\nOnly headers are"
@@ -266,11 +269,7 @@ _CLASSES_KIND = Kind("NDArray[uint8]", "The class of each point, shape (n,).")
 _MASK_KIND = partial(Kind, "NDArray[bool_]")
 FUNCTIONS: dict[str, Callable[[], Function]] = {
     "above_ground": lambda: _of_tool(
-        "above_ground",
-        "Classify vegetation (3, 4, 5), buildings (6), bridges (17) and high noise (18).\nOnly"
-        " points of class 0 and 1 change.",
-        _CLASSES_KIND,
-        lambda result: result.classification,
+        "above_ground", _CLASSES_KIND, lambda result: result.classification
     ),
     "blocks": _of_blocks,
     "check": of_check,
@@ -296,7 +295,6 @@ FUNCTIONS: dict[str, Callable[[], Function]] = {
     ),
     "heights": lambda: _of_tool(
         "heights",
-        "Measure the height of each point above the ground.",
         Kind(
             "NDArray[float64]", "The heights in the vertical unit of the CRS; NaN far from ground."
         ),
@@ -305,7 +303,6 @@ FUNCTIONS: dict[str, Callable[[], Function]] = {
     ),
     "key_points": lambda: _of_tool(
         "key_points",
-        "Find the model key points: the few ground points that a terrain model needs.",
         _MASK_KIND("Which points are model key points."),
         lambda result: np.asarray(result.edits().key_points) == 1,
         KeyPointMark("flag"),

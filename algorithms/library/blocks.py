@@ -270,7 +270,7 @@ def points_of(
     clouds = _read(block, read, sources, numbers)
     if work.is_classified:
         inner = (cloud.take(np.flatnonzero(grid.codes(cloud) == number)) for cloud in clouds)
-        return [(sources[which], cloud) for which, cloud in enumerate(inner)]
+        return [(sources[place], cloud) for place, cloud in enumerate(inner)]
     working = Work.in_memory(grid.step, grid.frame)
     with SharedThreads(1).used():
         for cloud in clouds:
@@ -282,11 +282,11 @@ def points_of(
     if failure:
         progress.warning(failure)
     found = []
-    for which, (cloud, is_inside) in enumerate(kept):
+    for place, (cloud, is_inside) in enumerate(kept):
         inside = np.flatnonzero(is_inside)
-        values = working.store.values(which)[inside]
+        values = working.store.values(place)[inside]
         values = np.zeros_like(values) if failure else values
-        found.append((sources[which], grid.step.applied(cloud.take(inside), values)))
+        found.append((sources[place], grid.step.applied(cloud.take(inside), values)))
     return found
 
 

@@ -205,8 +205,7 @@ def _of_argument(argument: Argument, is_keyword: bool = True) -> Described:
     kinds = inspect.Parameter
     place = kinds.KEYWORD_ONLY if is_keyword else kinds.POSITIONAL_OR_KEYWORD
     parameter = kinds(argument.name, place, default=default, annotation=annotation)
-    help = argument.help.rstrip(".")
-    return Described(parameter, words, f"{help[:1].upper()}{help[1:]}.")
+    return Described(parameter, words, argument.help.replace("Empty:", "None:"))
 
 
 def _of_declaration(declared: Declaration) -> Described:

@@ -13,14 +13,12 @@ from ..core.words import option, tool
 from ..filters import METHODS
 from ..remote.addresses import is_address
 from ..tools.ground.method import TileMethod
-from .arguments import KINDS, Argument
+from .arguments import KINDS, MOST, Argument
 from .given import area_of, progress_of
 
 if TYPE_CHECKING:
     from ..crs.system import Crs
 
-# Gigabytes that are fetched unless the user allows more.
-MOST = 2.0
 # Metres round an area, all points in which are fetched for rasters. A file on this computer is read
 # farther out (`AROUND_AREA`), which costs little. In 18 windows of 7 real clouds, 200 m give the
 # same labels, and 400 m the same rasters. It decides whether a gap without points, such as a lake,

@@ -15,19 +15,10 @@ from ..core.words import option
 from ..engine.memory import Resources
 from ..engine.options import TileInput, TileOutput
 from ..survey.files import Inputs
-from ..survey.vector_files import FORMATS
-from ..tools import (
-    COMPOSITIONS,
-    FILE_TOOLS,
-    MAP_TOOLS,
-    POINT_TOOLS,
-    composition,
-    file_tool,
-    map_tool,
-    point_tool,
-)
-from ..tools.declaration import FileTool, Input, Output, ToFind, Tool
+from ..tools import composition, file_tool, map_tool, point_tool
+from ..tools.declaration import POINTS, FileTool, Input, Output, ToFind, Tool
 from ..tools.input_groups import GROUPS
+from ..tools.listing import COMPOSITIONS, FILE_TOOLS, MAP_TOOLS, POINT_TOOLS
 from . import arguments, tool_commands
 from .arguments import KINDS, REQUIRED, Argument
 from .functions import Function
@@ -46,7 +37,7 @@ from .given import (
 )
 from .raster_inputs import heights_of
 
-CLASSIFIED = replace(arguments.SOURCES, help=f"classified {arguments.SOURCES.help}")
+CLASSIFIED = replace(arguments.SOURCES, help=f"{POINTS.help} {arguments.SOURCES.help}")
 _REACHES = (*arguments.REMOTE, arguments.SCHEDULER, arguments.PROGRESS)
 # What reads the inputs that have several arguments.
 _READERS: dict[str, Callable[[SimpleNamespace], Any]] = {
@@ -79,17 +70,12 @@ def function(name: str) -> Callable[..., Any]:
     return declared(name).callable()
 
 
-def _about(line: str, command_about: str) -> str:
-    """Return the documentation: the line of the list of commands, and the help of the command."""
-    return f"{line[0].upper()}{line[1:]}.\n{command_about}"
-
-
 def _of_file_tool(command: str) -> Function:
     from ..tools.running import run as run_tool
 
     tool = file_tool(command)
     given = [argument for declared in tool.inputs for argument in arguments_of(declared)]
-    given += [_argument_of(output) for output in tool.outputs]
+    given += map(arguments.of_output, tool.outputs)
     if any(declared.kind in ("cloud", "clouds") for declared in tool.inputs):
         given += arguments.REMOTE
 
@@ -100,7 +86,7 @@ def _of_file_tool(command: str) -> Function:
 
     return Function(
         command.replace("-", "_"),
-        _about(FILE_TOOLS[command].help, tool.command_about),
+        tool.help,
         tuple(argument for argument in given if argument.default is REQUIRED),
         (*(argument for argument in given if argument.default is not REQUIRED), arguments.PROGRESS),
         tool.sets,
@@ -120,15 +106,10 @@ def _name_of(output: Output) -> str:
     return output.option.replace("-", "_")
 
 
-def _argument_of(output: Output) -> Argument:
-    """Return the argument for an output of a tool."""
-    return arguments.path(_name_of(output), output.help, REQUIRED if output.is_main else None)
-
-
 def arguments_of(declared: Input) -> tuple[Argument, ...]:
     """Return the arguments for an input of a tool."""
     if declared.kind == "area":
-        return arguments.area(declared.help, declared.more)
+        return arguments.area(declared.help)
     if declared.kind in GROUPS:
         with_water = arguments.WITH_AUTOMATIC_WATER
         return with_water if declared.found else arguments.of_group(declared.kind)
@@ -136,13 +117,11 @@ def arguments_of(declared: Input) -> tuple[Argument, ...]:
         return (arguments.CRS,)
     if declared.kind == "clouds":
         return (CLASSIFIED if declared.help else arguments.SOURCES,)
-    help = declared.help.format(formats=FORMATS)
     kind = "text" if declared.kind == "address" else declared.kind
     kind = kind if kind in KINDS else "path"
-    if kind == "extent":
-        help = f"xmin, ymin, xmax, ymax: {help}, in the CRS of the points{declared.more}"
     is_required = not declared.optional and kind not in ("extent", "words")
-    return (Argument.of(declared.name, kind, help, REQUIRED if is_required else None),)
+    default = REQUIRED if is_required else None
+    return (Argument.of(declared.name, kind, declared.help, default),)
 
 
 def input_of(declared: Input, values: SimpleNamespace) -> Any:
@@ -178,11 +157,11 @@ def _of_point_tool(command: str) -> Function:
     tool = point_tool(command)
     return Function(
         POINT_TOOLS[command].file,
-        _about(POINT_TOOLS[command].help, tool.command_about),
-        (CLASSIFIED, arguments.OUTPUT),
+        tool.help,
+        (CLASSIFIED, *map(arguments.of_output, tool.all_outputs)),
         (
             *(argument for declared in tool.inputs for argument in arguments_of(declared)),
-            arguments.CRS_OF_OUTPUT, *_REACHES,
+            arguments.CRS, *_REACHES,
         ),
         (*tool.sets, TileInput, TileOutput, Resources),
         partial(_run_on_points, tool),
@@ -211,16 +190,16 @@ def _of_map_tool(command: str) -> Function:
     from ..tools.rasters.output import RasterSize
 
     tool = map_tool(command)
-    first = [_argument_of(output) for output in tool.all_outputs if not output.advanced]
+    first = [arguments.of_output(output) for output in tool.all_outputs if not output.advanced]
     inputs = [argument for declared in tool.inputs for argument in arguments_of(declared)]
-    last = [_argument_of(output) for output in tool.all_outputs if output.advanced]
+    last = [arguments.of_output(output) for output in tool.all_outputs if output.advanced]
     last += [arguments.VPC] if tool.classifies else []
     return Function(
         command,
-        tool.function_about,
+        tool.help,
         (arguments.SOURCES, arguments.OUTPUT) if tool.classifies else (CLASSIFIED,),
         (
-            arguments.CRS_OF_OUTPUT if tool.classifies else arguments.CRS,
+            arguments.CRS,
             *first,
             *inputs,
             *last,
@@ -246,16 +225,16 @@ def _of_composition(command: str) -> Function:
         places, table = (values.sources, values.output), getattr(values, tool.chosen)
         return tool.work(*places, table, sets, inputs, progress_of(values.progress), workers)
 
-    tables = " ".join(f"{name}: {table.about}" for name, table in tool.tables.items()).rstrip(".")
-    help = f"{tool.chosen_help}. {tables}"
+    tables = (f"{name}: {table.about}" for name, table in tool.tables.items())
+    help = " ".join((tool.chosen_help, *tables))
     return Function(
         command,
-        tool.function_about,
-        (arguments.SOURCES, *map(_argument_of, tool.outputs)),
+        tool.help,
+        (arguments.SOURCES, *map(arguments.of_output, tool.outputs)),
         (
             Argument.choice(tool.chosen, tool.tables, tool.default, help),
             *(argument for declared in tool.inputs for argument in arguments_of(declared)),
-            arguments.CRS_OF_OUTPUT,
+            arguments.CRS,
             *_REACHES,
         ),
         tool.sets,

@@ -135,16 +135,18 @@ class HeightSampler:
         column, row = self._inverse @ np.array([x - west, y - north])
         (rows, columns), values = self._raster.shape, np.full(len(x), np.nan)
         inside = (row >= 0) & (row <= rows) & (column >= 0) & (column <= columns)
-        which = np.flatnonzero(inside)
+        indices = np.flatnonzero(inside)
         # The last row and column hold the border of the raster.
-        cells = np.array([np.minimum(row[which], rows - 1), np.minimum(column[which], columns - 1)])
+        cells = np.array(
+            [np.minimum(row[indices], rows - 1), np.minimum(column[indices], columns - 1)]
+        )
         squares = cells.astype(np.int64) // _SIDE
         codes = squares[0] * (columns // _SIDE + 1) + squares[1]
         order = np.argsort(codes, kind="stable")
         cuts = np.flatnonzero(np.diff(codes[order])) + 1
         for group in np.split(order, cuts) if len(order) else ():
             square = self._square(*squares[:, group[0]].tolist())
-            here = which[group]
+            here = indices[group]
             values[here] = _interpolated(square, row[here], column[here])
         return values
 

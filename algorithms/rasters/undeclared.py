@@ -32,9 +32,9 @@ class Undeclared(NamedTuple):
     def among(self, values: np.ndarray, valid: np.ndarray) -> np.ndarray:
         """Return which valid cells have such a value."""
         found = valid & ((values <= _LOW) | (values >= _HIGH))
-        some = values[found]  # few, but in high mountains in feet
-        is_absurd = np.isfinite(some) & ((some <= -_ABSURD) | (some >= _ABSURD))
-        found[found] = is_absurd | np.isin(some, [*self.counts])
+        doubtful = values[found]  # few, but in high mountains in feet
+        is_absurd = np.isfinite(doubtful) & ((doubtful <= -_ABSURD) | (doubtful >= _ABSURD))
+        found[found] = is_absurd | np.isin(doubtful, [*self.counts])
         return found
 
     def text(self, source: object) -> str:

@@ -27,8 +27,9 @@ _AGAIN = (408, 425, 429, 500, 502, 503, 504)
 REDIRECTS = (301, 302, 303, 307, 308)
 _GZIP = "gzip"
 # Bytes of memory that Python needs at most for an object, a list, a member and a value of JSON, by
-# the mark that each has, and for a whole document.
-_COSTS, _MOST_MEMORY = {b"{": 64, b"[": 72, b":": 150, b",": 40}, 600_000_000
+# the mark that each has.
+_COSTS = {b"{": 64, b"[": 72, b":": 150, b",": 40}
+_MOST_MEMORY = 600_000_000  # bytes for a whole document
 # Parameters of the query that say that an address is signed: of Azure, Amazon and Google.
 _SIGNED = re.compile(r"[?&](sig|X-Amz-Signature|Signature|X-Goog-Signature)=", re.IGNORECASE)
 

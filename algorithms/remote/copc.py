@@ -187,13 +187,15 @@ class CopcPart:
             statistics.add(records if inside.all() else records[inside])
             stops, ends = (np.cumsum(nodes[name], dtype=np.int64) for name in ("count", "size"))
             counts = np.add.reduceat(inside, stops - nodes["count"], dtype=np.int64)
-            some = (counts > 0) & (counts < nodes["count"])
+            are_cut = (counts > 0) & (counts < nodes["count"])
             parts = [
                 records[stop - count : stop][inside[stop - count : stop]]
-                for stop, count in zip(stops[some].tolist(), nodes["count"][some].tolist())
+                for stop, count in zip(stops[are_cut].tolist(), nodes["count"][are_cut].tolist())
             ]
             anew = iter(compressed(laszip, parts) if parts else ())
-            for node, count, end, is_cut in zip(nodes.copy(), counts.tolist(), ends.tolist(), some):
+            for node, count, end, is_cut in zip(
+                nodes.copy(), counts.tolist(), ends.tolist(), are_cut
+            ):
                 if count:
                     whole = memoryview(data)[end - int(node["size"]) : end]
                     place = chunks.add(next(anew) if is_cut else whole, count)

@@ -192,13 +192,13 @@ def line_chart(
     units: tuple[str, str],
 ) -> Html:
     """Return a line of values, NaN for gaps, on a band between two others, with both scales."""
-    known = np.concatenate([some[np.isfinite(some)] for some in (*band, values)])
+    known = np.concatenate([heights[np.isfinite(heights)] for heights in (*band, values)])
     if not len(known):
         return Html("")
     low, high, length = float(known.min()), float(known.max()), float(along[-1]) or 1.0
     x = along / length * _WIDTH
     lower, upper, middle = (
-        _HEIGHT * (1.0 - (some - low) / max(high - low, 1e-6)) for some in (*band, values)
+        _HEIGHT * (1.0 - (heights - low) / max(high - low, 1e-6)) for heights in (*band, values)
     )
     filled, line = [], []
     for part in _runs(np.isfinite(lower + upper)):

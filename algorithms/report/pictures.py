@@ -73,8 +73,8 @@ class Relief:
         pixels = weight * colour + (1 - weight) * self.shade[..., None]
         return Picture(np.rint(pixels).astype(np.uint8), self.cell_size)
 
-    def _counts(self, which: np.ndarray) -> np.ndarray:
-        counts = np.bincount(self.place[which], minlength=self.shade.size)
+    def _counts(self, points: np.ndarray) -> np.ndarray:
+        counts = np.bincount(self.place[points], minlength=self.shade.size)
         return counts.reshape(self.shade.shape)
 
 

@@ -106,9 +106,9 @@ class Area(Geometry):
         inside = (x >= west) & (x <= east) & (y >= south) & (y <= north)
         numbers = inside.astype(np.int32)
         if self.polygons:
-            which = np.flatnonzero(inside)
-            for some in parts_of(len(which), _POINTS_A_STEP):
-                part = which[some]
+            indices = np.flatnonzero(inside)
+            for step in parts_of(len(indices), _POINTS_A_STEP):
+                part = indices[step]
                 numbers[part] = _last_polygon(x[part], y[part], self.polygons)
         return numbers
 
@@ -130,8 +130,8 @@ def _last_polygon(x: np.ndarray, y: np.ndarray, polygons: tuple[Polygon, ...]) -
         west, south, east, north = _bounds(polygon)
         first, last = np.searchsorted(y, (south, north))
         near = x[first:last]
-        which = first + np.flatnonzero((near >= west) & (near <= east))
-        numbers[which[_is_odd(x[which], y[which], polygon)]] = number
+        in_box = first + np.flatnonzero((near >= west) & (near <= east))
+        numbers[in_box[_is_odd(x[in_box], y[in_box], polygon)]] = number
     result = np.empty(len(x), dtype=np.int32)
     result[order] = numbers
     return result

@@ -101,9 +101,9 @@ def _pairs(
     origin, scales = clouds[0].offset, zip(*(cloud.scale for cloud in clouds))
     steps = [max(pair) for pair in scales]
 
-    def integers(cloud: PointCloud, axis: int, which: np.ndarray | slice) -> np.ndarray:
+    def integers(cloud: PointCloud, axis: int, selected: np.ndarray | slice) -> np.ndarray:
         """Return coordinates of points in whole steps from the origin."""
-        metres = (cloud.x, cloud.y, cloud.z)[axis][which] * cloud.scale[axis]
+        metres = (cloud.x, cloud.y, cloud.z)[axis][selected] * cloud.scale[axis]
         start = cloud.offset[axis] - origin[axis]
         return np.rint((metres + start) / steps[axis]).astype(np.int64)
 

@@ -28,10 +28,10 @@ def copies_in(tiles: Sequence[LasFile], are_named: Sequence[bool], progress: Pro
         if original is not tile and not is_named:
             copies[tile.path] = original.path.name
     if copies:
-        some = [f"{path.name} (as {copies[path]})" for path in sorted(copies)[:_MOST_NAMES]]
-        more = f" and {len(copies) - len(some)} more" if len(copies) > len(some) else ""
+        shown = [f"{path.name} (as {copies[path]})" for path in sorted(copies)[:_MOST_NAMES]]
+        more = f" and {len(copies) - len(shown)} more" if len(copies) > len(shown) else ""
         progress.info(
-            f"Left out, since a file of the same name holds the same points: {', '.join(some)}"
+            f"Left out, since a file of the same name holds the same points: {', '.join(shown)}"
             f"{more}. To use one of them, give the file itself."
         )
     return set(copies)

@@ -104,9 +104,9 @@ def _by_pyogrio(
     count, kinds = 0, {int: np.int32, float: np.float64, str: object}
     most = None if target.suffix.lower() in _AT_ONCE else _FEATURES_A_STEP
     try:
-        for some in _in_steps(features, most):
+        for step in _in_steps(features, most):
             columns = [
-                [feature.values[place] for feature in some] for place in range(len(layer.fields))
+                [feature.values[place] for feature in step] for place in range(len(layer.fields))
             ]
             fields = [
                 np.array(
@@ -115,8 +115,8 @@ def _by_pyogrio(
                 for values, kind in zip(columns, layer.fields.values())
             ]
             masks = [np.array([cell is None for cell in values], dtype=bool) for values in columns]
-            shapes = np.empty(len(some), dtype=object)
-            shapes[:] = [wkb_of(layer.kind, feature.corners) for feature in some]
+            shapes = np.empty(len(step), dtype=object)
+            shapes[:] = [wkb_of(layer.kind, feature.corners) for feature in step]
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore")  # if there is no CRS
                 pyogrio.raw.write(
@@ -124,7 +124,7 @@ def _by_pyogrio(
                     layer=_layer_of(target, layer), driver=FORMATS[target.suffix.lower()],
                     geometry_type=layer.kind, append=count > 0, field_mask=masks,
                 )  # fmt: skip
-            count += len(some)
+            count += len(step)
     except (BareEarthError, MemoryError):
         raise
     except RuntimeError as error:  # the base of the errors of pyogrio
@@ -206,8 +206,8 @@ def _in_steps(features: Iterable[Feature], most: int | None) -> Iterator[list[Fe
     """Yield lists of features; one empty list if there are none."""
     features = iter(features)
     yield list(islice(features, most))
-    while some := list(islice(features, most)):
-        yield some
+    while step := list(islice(features, most)):
+        yield step
 
 
 def files_beside(path: Path) -> list[str]:

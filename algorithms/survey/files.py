@@ -303,13 +303,13 @@ def _common_crs(tiles: list[LasFile], stated: list[Crs], progress: Progress) -> 
         )
         return Crs()
     if len(known) > 1 or (unstated and not has_same_units(known[0], Crs())):
-        what, hint = "The files are not in the same CRS", f"{how_to_state()}."
+        problem, hint = "The files are not in the same CRS", f"{how_to_state()}."
         if not unstated and all(is_same_map(known[0], crs) for crs in known[1:]):
-            what = "The heights of the files are not in the same unit or above the same datum"
+            problem = "The heights of the files are not in the same unit or above the same datum"
             hint = f"{how_to_state()}, or with heights, such as EPSG:25832+7837."
         raise BareEarthError(
-            f"{what}: "
-            + "; ".join(f"{described(crs)}: {_names(some)}" for crs, some in groups.items())
+            f"{problem}: "
+            + "; ".join(f"{described(crs)}: {_names(members)}" for crs, members in groups.items())
             + ". Reproject them to one CRS, or work on each group alone. If they are in one CRS all"
             f" the same, give it: {hint}"
         )
@@ -340,7 +340,7 @@ def _tell_of_datums(
     if others:
         progress.warning(
             f"The vertical datum of most files is {common.datum.crs}; others name it"
-            + "; ".join(f" {name}: {_names(some)}" for name, some in others.items())
+            + "; ".join(f" {name}: {_names(members)}" for name, members in others.items())
             + ". Their heights are used as they are: check that they fit together."
         )
 

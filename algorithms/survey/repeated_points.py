@@ -70,8 +70,8 @@ class RepeatedPoints:
         bits = math.ceil(math.log2(max(len(self._keys) / _SORTED_TOGETHER, 1.0)))
         for number in range(1 << bits):
             if bits:
-                some = np.flatnonzero(self._keys >> np.uint64(64 - bits) == number)
-                self._find_among(some, self._keys[some])
+                places = np.flatnonzero(self._keys >> np.uint64(64 - bits) == number)
+                self._find_among(places, self._keys[places])
             else:
                 self._find_among(np.arange(len(self._keys)), self._keys)
         self._place = 0
@@ -88,7 +88,7 @@ class RepeatedPoints:
         again = places[~is_first]
         self._is_repeated[again] = True
         before, here = (
-            np.searchsorted(self._starts, some, "right") for some in (first[~is_first], again)
+            np.searchsorted(self._starts, indices, "right") for indices in (first[~is_first], again)
         )
         shared = int(np.count_nonzero(before != here))
         self.shared += shared

@@ -80,7 +80,7 @@ def _shapes(
     source: Any, kind: str, shape_of: Callable[[Any, dict], Any], may_be_empty: bool = False
 ) -> Shapes:
     """Return what `shape_of` returns for coordinates and attributes of each geometry of a kind."""
-    what, crs = _WORDS[kind], None
+    word, crs = _WORDS[kind], None
     try:
         if is_frame(source):
             label, (found, crs) = FRAME, _of_frame(source, kind)
@@ -90,7 +90,7 @@ def _shapes(
         elif (content := _geojson_of(source)) is not None:
             label, (found, crs) = _GEOMETRY, _of_geojson(content, kind)
         else:
-            label, found = f"The {what}", _of_arrays(source, kind)
+            label, found = f"The {word}", _of_arrays(source, kind)
             if kind == "Polygon":
                 # Those of files are zeros as a rule; corners in arrays keep their heights.
                 shape_of = _polygon_with_heights
@@ -98,7 +98,7 @@ def _shapes(
     except _INVALID as error:
         raise BareEarthError(f"{label} is not valid: {_one_line(error)}.") from error
     if not any(map(len, shapes)) and not may_be_empty:
-        raise BareEarthError(f"{label} holds no {what}. Give one that does.")
+        raise BareEarthError(f"{label} holds no {word}. Give one that does.")
     return Shapes(shapes, crs, label)
 
 
@@ -127,14 +127,16 @@ def _geojson_of(given: Any) -> Any:
         return given.__geo_interface__
     if isinstance(given, (str, PathLike)) or not hasattr(given, "__len__"):
         return None
-    some = [_geojson_of(item) for item in given if isinstance(item, dict) or hasattr(item, _KNOWS)]
-    if not some:
+    geometries = [
+        _geojson_of(item) for item in given if isinstance(item, dict) or hasattr(item, _KNOWS)
+    ]
+    if not geometries:
         return None
-    if len(some) < len(given):
+    if len(geometries) < len(given):
         raise BareEarthError(
             "A list of geometries must hold nothing but GeoJSON and geometries as shapely has."
         )
-    return {"type": "GeometryCollection", "geometries": some}
+    return {"type": "GeometryCollection", "geometries": geometries}
 
 
 def _of_arrays(given: Any, kind: str) -> Iterator[tuple[Any, dict]]:
@@ -227,5 +229,5 @@ def _nodes_of(content: Any, kind: str) -> Iterator[tuple[Any, dict]]:
         elif name == "Feature":
             nodes.append((node["geometry"], node.get("properties") or {}))
         elif name in ("FeatureCollection", "GeometryCollection"):
-            some = node["features" if name == "FeatureCollection" else "geometries"]
-            nodes += [(child, attributes) for child in reversed(some)]
+            children = node["features" if name == "FeatureCollection" else "geometries"]
+            nodes += [(child, attributes) for child in reversed(children)]

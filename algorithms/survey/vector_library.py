@@ -61,9 +61,9 @@ def read_features(
         raise BareEarthError(f"{name} has no layer {wanted}. Check its name.")
     filled = [layer for layer in found if found[layer][0]]
     if len(filled) > 1:
-        what = {"Polygon": "polygons", "Point": "points"}.get(kind, "lines")
+        word = {"Polygon": "polygons", "Point": "points"}.get(kind, "lines")
         raise BareEarthError(
-            f"{name} has {what} in the layers {', '.join(filled)}. Give one of them:"
+            f"{name} has {word} in the layers {', '.join(filled)}. Give one of them:"
             f" '{name}{_LAYER}{filled[0]}'."
         )
     features, crs = found[filled[0]] if filled else ([], None)

@@ -55,10 +55,10 @@ def enclosing_triangles(
         lowest, worst = _lowest(above)
         goes_on = lowest - level < -_ON_CIRCLE * np.maximum(np.abs(level), 1.0)
         ended, left = np.flatnonzero(~goes_on), np.flatnonzero(goes_on)
-        which = active[ended]
-        corners[:, which], found[which] = triangle[:, ended], True
-        sure[which] = _lies_within(
-            slope_x[ended] / 2.0, slope_y[ended] / 2.0, level[ended], window[:, which]
+        done = active[ended]
+        corners[:, done], found[done] = triangle[:, ended], True
+        sure[done] = _lies_within(
+            slope_x[ended] / 2.0, slope_y[ended] / 2.0, level[ended], window[:, done]
         )
         if not len(left):
             break
@@ -82,9 +82,9 @@ def listed(first: np.ndarray, count: np.ndarray) -> np.ndarray:
     return listed
 
 
-def picked(values: np.ndarray, which: np.ndarray) -> np.ndarray:
-    """Return the values in rows `which`, shape (q,) or (n, q), of each column of values (k, q)."""
-    return values.ravel().take(which * values.shape[1] + np.arange(values.shape[1]))
+def picked(values: np.ndarray, rows: np.ndarray) -> np.ndarray:
+    """Return the values in `rows`, shape (q,) or (n, q), of each column of values (k, q)."""
+    return values.ravel().take(rows * values.shape[1] + np.arange(values.shape[1]))
 
 
 def heights_of_four(
@@ -135,9 +135,9 @@ def _nearest_of_quarters(
         beyond = ((west, south), (east, south), (east, north), (west, north))
     for number in range(4):
         if quarters is not None:
-            some = quarters[number]
-            nearest, which = _lowest(distance[some])
-            corners[number] = some[which]
+            quarter = quarters[number]
+            nearest, row = _lowest(distance[quarter])
+            corners[number] = quarter[row]
         else:
             nearest, corners[number] = _lowest(distance + beyond[number][0] + beyond[number][1])
         are_there &= nearest < NOWHERE

@@ -116,14 +116,14 @@ class DenseSurface:
         heights, sure = np.full(len(x), np.nan), np.zeros(len(x), dtype=bool)
 
         def fill(group: tuple[tuple[int, int], np.ndarray]) -> None:
-            place, which = group
+            place, indices = group
             at_x, at_y = (
-                self.thinned.cells(places[which], axis) - place[1 - axis] * TILE
+                self.thinned.cells(places[indices], axis) - place[1 - axis] * TILE
                 for axis, places in enumerate((x, y))
             )
             corners = (np.rint(places).astype(np.intp) for places in (at_x, at_y))
             queries = Queries(at_x, at_y, *corners)
-            heights[which], sure[which] = self._in_tile(place, queries, False, max_edge)
+            heights[indices], sure[indices] = self._in_tile(place, queries, False, max_edge)
 
         groups = self.thinned.by_tile(x, y, progress.part(0.0, 0.1))
         in_threads(fill, groups, progress.part(0.1, 0.7))
@@ -139,8 +139,8 @@ class DenseSurface:
         # corner.
         from scipy.spatial import cKDTree
 
-        def tree(which: np.ndarray) -> cKDTree:
-            places = np.column_stack(self._points.take(which)[:2])
+        def tree(vertices: np.ndarray) -> cKDTree:
+            places = np.column_stack(self._points.take(vertices)[:2])
             # A balanced tree takes longer to build than it saves.
             return cKDTree(places, balanced_tree=False, compact_nodes=False)
 
@@ -154,9 +154,9 @@ class DenseSurface:
                 for places, number in zip((row, column), place)
             )
             if (np.hypot(*beyond) <= farthest).any():
-                near.append(tile.which)
-        which = np.concatenate(near)
-        return self._points.z[which[tree(which).query(queries)[1]]]
+                near.append(tile.source)
+        vertices = np.concatenate(near)
+        return self._points.z[vertices[tree(vertices).query(queries)[1]]]
 
     @property
     def vertices(self) -> np.ndarray:
@@ -200,9 +200,9 @@ class DenseSurface:
         marked = None if near is None else _marked(self.thinned, *near, rim)
         for place, tile in self.thinned.tiles.items():
             if marked is None:
-                is_vertex[tile.which] = True
+                is_vertex[tile.source] = True
             elif place in marked:
-                is_vertex[tile.which[marked[place][tile.slots]]] = True
+                is_vertex[tile.source[marked[place][tile.slots]]] = True
         return is_vertex
 
 
@@ -211,9 +211,9 @@ def _marked(
 ) -> dict[tuple[int, int], np.ndarray]:
     """Return a mask (TILE * TILE,) of the cells near places for each tile that has any."""
     marked: dict[tuple[int, int], np.ndarray] = {}
-    for place, which in thinned.by_tile(x, y):
+    for place, indices in thinned.by_tile(x, y):
         row, column = (
-            np.floor(thinned.cells(places[which], axis)).astype(np.intp) - number * TILE + rim
+            np.floor(thinned.cells(places[indices], axis)).astype(np.intp) - number * TILE + rim
             for axis, places, number in ((1, y, place[0]), (0, x, place[1]))
         )
         near = np.zeros((TILE + 2 * rim,) * 2, dtype=np.uint8)

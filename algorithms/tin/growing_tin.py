@@ -90,7 +90,7 @@ class GrowingTin:
         """
         # Heights are NaN where the triangle is farther away: call again for these.
         heights = np.full(len(x), np.nan)
-        which, here = np.arange(len(x)), triangle
+        moving, here = np.arange(len(x)), triangle
         for _ in range(_STEPS):
             corners = [self.corners.take(3 * here + k) for k in range(3)]
             areas = self._opposite_areas(x, y, corners)
@@ -101,12 +101,12 @@ class GrowingTin:
             is_outside[go[into < 0]] = False
             stay = np.flatnonzero(~is_outside)
             found = self._interpolated([e[stay] for e in corners], [e[stay] for e in areas])
-            heights[which[stay]], triangle[which[stay]] = found, here[stay]
+            heights[moving[stay]], triangle[moving[stay]] = found, here[stay]
             go, here = go[into >= 0], into[into >= 0]
             if not len(go):
                 return heights
-            which, x, y = which[go], x[go], y[go]
-        triangle[which] = here
+            moving, x, y = moving[go], x[go], y[go]
+        triangle[moving] = here
         return heights
 
     def ambiguous_edges(self) -> np.ndarray:
@@ -184,13 +184,13 @@ class GrowingTin:
         apart = np.ones(len(triangle), dtype=bool)
         number = np.full(self.count, -1, dtype=np.int64)
         number[triangle] = np.arange(len(triangle))
-        some = np.flatnonzero(is_on_edge & (self.twins[edge] >= 0))
-        others = number[self.twins[edge[some]] // 3]
-        some, others = some[others >= 0], others[others >= 0]
-        first = rank[some] > rank[others]
-        equal = rank[some] == rank[others]
-        first |= equal & (triangle[some] < triangle[others])
-        apart[np.where(first, others, some)] = False
+        on_edge = np.flatnonzero(is_on_edge & (self.twins[edge] >= 0))
+        others = number[self.twins[edge[on_edge]] // 3]
+        on_edge, others = on_edge[others >= 0], others[others >= 0]
+        first = rank[on_edge] > rank[others]
+        equal = rank[on_edge] == rank[others]
+        first |= equal & (triangle[on_edge] < triangle[others])
+        apart[np.where(first, others, on_edge)] = False
         return apart
 
     def _split(
@@ -246,7 +246,7 @@ class GrowingTin:
         for _ in range(_MOST_STEPS):
             parts = [edges[part] for part in parts_of(len(edges), _EDGES_A_PART)]
             wrong = in_threads(self._are_wrong, parts)
-            edges = np.concatenate([part[some] for part, some in zip(parts, wrong)] or [edges])
+            edges = np.concatenate([part[mask] for part, mask in zip(parts, wrong)] or [edges])
             if not len(edges):
                 return
             # A triangle takes part in one flip at a time: the last one that is written.

@@ -45,8 +45,8 @@ def height_above_ground(
     # dense.
     heights = np.zeros(points.count)
     surface = GroundSurface(points.take(ground), progress.part(0.0, 0.2))
-    which = np.flatnonzero(~ground if wanted is None else ~ground & wanted)
-    heights[which] = surface.heights_above(points.take(which), progress.part(0.2, 1.0))
+    above = np.flatnonzero(~ground if wanted is None else ~ground & wanted)
+    heights[above] = surface.heights_above(points.take(above), progress.part(0.2, 1.0))
     return heights
 
 

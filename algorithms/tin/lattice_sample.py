@@ -34,7 +34,7 @@ class Tile(NamedTuple):
     slots: np.ndarray  # int32 (n,), the cell of each point in the flattened lattice; ascending
     x: np.ndarray  # float64 (n,), in cells, from the corner of the tile
     y: np.ndarray  # float64 (n,)
-    which: np.ndarray  # intp (n,), indices in the points before thinning
+    source: np.ndarray  # intp (n,), indices in the points before thinning
     outer: np.ndarray  # intp (m,), indices of points that may be corners of the convex hull
 
 
@@ -78,28 +78,28 @@ class LatticeSample:
 
         found: dict[TilePlace, list[np.ndarray]] = defaultdict(list)
         for runs in in_threads(sorted_part, parts_of(len(x), _POINTS_A_PART), progress):
-            for place, which in runs:
-                found[place].append(which)
+            for place, indices in runs:
+                found[place].append(indices)
         return [(place, np.concatenate(found[place])) for place in sorted(found)]
 
     def cells(self, values: np.ndarray, axis: int) -> np.ndarray:
         """Convert x (`axis` 0) or y (1) from metres to cells from the anchor."""
         return (values - self.anchor[axis]) / self.side + _ROUNDING
 
-    def _tile(self, place: TilePlace, which: np.ndarray) -> Tile:
-        x = self.cells(self.points.x[which], 0) - place[1] * TILE
-        y = self.cells(self.points.y[which], 1) - place[0] * TILE
+    def _tile(self, place: TilePlace, indices: np.ndarray) -> Tile:
+        x = self.cells(self.points.x[indices], 0) - place[1] * TILE
+        y = self.cells(self.points.y[indices], 1) - place[0] * TILE
         column, row = x.astype(np.int32), y.astype(np.int32)
         distance = np.rint(((x - column - 0.5) ** 2 + (y - row - 0.5) ** 2) * _DISTANCES)
         slots = row * TILE + column
-        first = first_of_each(slots, TILE * TILE, distance, self.points.z[which], x, y)
-        outer = which[_are_outer(slots[first])[slots]]
-        return Tile(slots[first], x[first] - _ROUNDING, y[first] - _ROUNDING, which[first], outer)
+        first = first_of_each(slots, TILE * TILE, distance, self.points.z[indices], x, y)
+        outer = indices[_are_outer(slots[first])[slots]]
+        return Tile(slots[first], x[first] - _ROUNDING, y[first] - _ROUNDING, indices[first], outer)
 
     @property
     def count(self) -> int:
         """Number of points after thinning."""
-        return sum(len(tile.which) for tile in self.tiles.values())
+        return sum(len(tile.source) for tile in self.tiles.values())
 
     @cached_property
     def hull(self) -> np.ndarray:
@@ -113,7 +113,7 @@ class LatticeSample:
         """
         width = TILE + 2 * margin
         lattice = np.full((width, width), -1, dtype=np.int32)
-        x, y, which, count = [], [], [], 0
+        x, y, source, count = [], [], [], 0
         for row, column in itertools.product((-1, 0, 1), (-1, 0, 1)):
             tile = self.tiles.get((place[0] + row, place[1] + column))
             if tile is None:
@@ -125,12 +125,12 @@ class LatticeSample:
             lattice[at_row[inside], at_column[inside]] = np.arange(count, count + len(inside))
             x.append(tile.x[inside] + column * TILE)
             y.append(tile.y[inside] + row * TILE)
-            which.append(tile.which[inside])
+            source.append(tile.source[inside])
             count += len(inside)
         return Window(
             lattice,
             *(np.concatenate(parts) if parts else np.zeros(0) for parts in (x, y)),
-            np.concatenate(which) if which else np.zeros(0, dtype=np.intp),
+            np.concatenate(source) if source else np.zeros(0, dtype=np.intp),
         )
 
 
@@ -140,7 +140,7 @@ class Window(NamedTuple):
     lattice: np.ndarray  # int32 (rows, columns), the number of the point in each cell; -1 for none
     x: np.ndarray  # float64 (n,), in cells, from the corner of the tile
     y: np.ndarray  # float64 (n,)
-    which: np.ndarray  # intp (n,), indices in the points before thinning
+    source: np.ndarray  # intp (n,), indices in the points before thinning
 
 
 def _are_outer(slots: np.ndarray) -> np.ndarray:
@@ -153,10 +153,10 @@ def _are_outer(slots: np.ndarray) -> np.ndarray:
     has_any, columns = occupied.any(axis=1), np.arange(TILE)
     outer = np.zeros((TILE, TILE), dtype=bool)
     for rows in (slice(None), slice(None, None, -1)):
-        some = occupied[rows]
+        turned = occupied[rows]
         # First and last columns of points in the rows before each one.
-        first = np.where(has_any[rows], some.argmax(axis=1), TILE)[:-1]
-        last = np.where(has_any[rows], TILE - 1 - some[:, ::-1].argmax(axis=1), -1)[:-1]
+        first = np.where(has_any[rows], turned.argmax(axis=1), TILE)[:-1]
+        last = np.where(has_any[rows], TILE - 1 - turned[:, ::-1].argmax(axis=1), -1)[:-1]
         first = np.append(TILE, np.minimum.accumulate(first))[:, None]
         last = np.append(-1, np.maximum.accumulate(last))[:, None]
         outer[rows] |= (columns <= first) | (columns >= last)

@@ -40,9 +40,9 @@ class Queries(NamedTuple):
     column: np.ndarray  # intp (q,), the corner of cells nearest to each query
     row: np.ndarray  # intp (q,)
 
-    def take(self, which: np.ndarray | slice) -> Queries:
+    def take(self, indices: np.ndarray | slice) -> Queries:
         """Return the selected queries."""
-        return Queries(*(column[which] for column in self))
+        return Queries(*(column[indices] for column in self))
 
 
 class LocalDelaunay:
@@ -66,7 +66,7 @@ class LocalDelaunay:
         occupied = window.lattice >= 0
         order = window.lattice[occupied]
         self._x, self._y = (np.append(axis[order], NOWHERE) for axis in window[1:3])
-        self._z = np.append(thinned.points.z[window.which[order]], 0.0)
+        self._z = np.append(thinned.points.z[window.source[order]], 0.0)
         self._before = np.concatenate(([0], np.cumsum(occupied)))
         # Number of vertices southwest of each corner of cells.
         self._counts = np.zeros(np.add(window.lattice.shape, 1), dtype=np.intp)
@@ -88,35 +88,35 @@ class LocalDelaunay:
             if len(left) > most * (len(self._x) - 1):
                 break
             for part in parts_of(len(left), _QUERIES):
-                for which in self._promising(queries, left[part], width):
-                    heights[which], sure[which] = self._in_windows(queries.take(which), width)
+                for likely in self._promising(queries, left[part], width):
+                    heights[likely], sure[likely] = self._in_windows(queries.take(likely), width)
             left = left[~sure[left]]
         return heights, sure
 
-    def _promising(self, queries: Queries, which: np.ndarray, width: int) -> Iterator[np.ndarray]:
+    def _promising(self, queries: Queries, left: np.ndarray, width: int) -> Iterator[np.ndarray]:
         """Yield, part by part, the queries with vertices in all quarters of their window."""
-        some = queries.take(which)
+        chosen = queries.take(left)
         if width == 2:
-            which = which[self._are_full.take(self._start(some, 1))]
+            left = left[self._are_full.take(self._start(chosen, 1))]
         else:
             west, middle, east = (
-                self._counts_southwest(some, width // 2, across) for across in (-1, 0, 1)
+                self._counts_southwest(chosen, width // 2, across) for across in (-1, 0, 1)
             )
             columns = middle - west, east - middle
             quarters = [part for half in columns for part in (half[1] - half[0], half[2] - half[1])]
             kept = np.flatnonzero(np.min(quarters, axis=0) > 0)
-            which, counts = which[kept], np.sum(quarters, axis=0)[kept]
+            left, counts = left[kept], np.sum(quarters, axis=0)[kept]
         if width < _LEAST_LISTED:
-            counts = np.full(len(which), width * width)
+            counts = np.full(len(left), width * width)
         else:
             order = np.argsort(counts, kind="stable")
-            which, counts = which[order], counts[order]
+            left, counts = left[order], counts[order]
         start = 0
-        while start < len(which):
+        while start < len(left):
             # Queries are sorted by their vertices: none of the part has more than this one.
-            most = min(start + _TOGETHER // int(counts[start]), len(which)) - 1
+            most = min(start + _TOGETHER // int(counts[start]), len(left)) - 1
             stop = start + max(_TOGETHER // int(counts[most]), 1)
-            yield which[start:stop]
+            yield left[start:stop]
             start = stop
 
     def _counts_southwest(self, queries: Queries, half: int, across: int) -> np.ndarray:

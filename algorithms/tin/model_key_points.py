@@ -113,10 +113,10 @@ def model_key_points(
     progress(0.22)
     levels = _levels(points, parameters.grid_size)
     progress(0.25)
-    for number, (some, cells) in enumerate(levels):
+    for number, (tested, cells) in enumerate(levels):
         start = 0.25 + 0.1 * number
-        keys.densify(some, near[some], progress.part(start, start + 0.1))
-        near = _of_cells(cells, some)[cells.index]
+        keys.densify(tested, near[tested], progress.part(start, start + 0.1))
+        near = _of_cells(cells, tested)[cells.index]
     everyone = np.arange(points.count, dtype=np.int32)
     keys.densify(everyone, near, progress.part(0.45, 1.0), is_last=True)
     chosen[order[keys.are_keys]] = True
@@ -165,10 +165,10 @@ def _lowest_of_places(points: Points) -> np.ndarray:
     is_several = np.zeros(1 << _BITS, dtype=bool)
     is_several[ordered[1:][ordered[1:] == ordered[:-1]] >> shift] = True
     del ordered
-    some = np.flatnonzero(is_several[number >> shift])
+    several = np.flatnonzero(is_several[number >> shift])
     kept = np.ones(points.count, dtype=bool)
-    kept[some] = False
-    kept[some[lowest_of_duplicates(*points.take(some))]] = True
+    kept[several] = False
+    kept[several[lowest_of_duplicates(*points.take(several))]] = True
     return np.flatnonzero(kept)
 
 
@@ -189,9 +189,9 @@ def _outermost(points: Points, cells: Cells) -> np.ndarray:
     for axis, along, across in ((1, points.x, points.y), (0, points.y, points.x)):
         for step in (1, -1):
             beside = np.roll(occupied, step, axis)[1:-1, 1:-1].ravel()
-            some = np.flatnonzero(~beside[cells.index])
-            keys = step * along[some], across[some]
-            found.append(some[first_of_each(cells.index[some], beside.size, *keys)])
+            bordering = np.flatnonzero(~beside[cells.index])
+            keys = step * along[bordering], across[bordering]
+            found.append(bordering[first_of_each(cells.index[bordering], beside.size, *keys)])
     return np.concatenate(found)
 
 
@@ -199,15 +199,15 @@ def _levels(points: Points, grid_size: float) -> list[tuple[np.ndarray, Cells]]:
     """Return the points to test at each level, from wide to narrow cells, and these cells."""
     levels: list[tuple[np.ndarray, Cells]] = []
     spread = math.prod(points.sides)
-    which, left = np.arange(points.count, dtype=np.int32), points
+    tested, left = np.arange(points.count, dtype=np.int32), points
     for about in _LEVELS[::-1]:
         # Each cell of the grid is cut into whole cells.
         size = grid_size / max(round(grid_size / about), 1)
         if size < grid_size and spread < _MOST_CELLS * size**2:
             cells = Cells.over(points, size)
-            which = which[_most_central(left, size, cells.index[which])]
-            left = points.take(which)
-            levels.insert(0, (which, cells))
+            tested = tested[_most_central(left, size, cells.index[tested])]
+            left = points.take(tested)
+            levels.insert(0, (tested, cells))
     return levels
 
 
@@ -273,37 +273,37 @@ class _Keys:
             waiting = violating[~changed[triangle[violating]]]
             look = self._within(changed, pending)
 
-    def _look_at(self, which: np.ndarray, progress: Progress) -> None:
+    def _look_at(self, tested: np.ndarray, progress: Progress) -> None:
         """Find the triangle of each point, and how far the point lies beyond the tolerance."""
         for _ in range(_MOST_WALKS):
-            over_parts(partial(self._walk, which), len(which), _POINTS_A_PART, progress)
-            which, progress = which[np.isnan(self._beyond[which])], SILENT
-            if not len(which):
+            over_parts(partial(self._walk, tested), len(tested), _POINTS_A_PART, progress)
+            tested, progress = tested[np.isnan(self._beyond[tested])], SILENT
+            if not len(tested):
                 return
 
-    def _walk(self, which: np.ndarray, part: slice) -> None:
-        some = which[part]
-        x, y, z = (axis.take(some) for axis in self._points)
-        triangle = self._triangle.take(some)
-        self._beyond[some] = self._over(z - self._tin.heights(x, y, triangle))
-        self._triangle[some] = triangle
+    def _walk(self, tested: np.ndarray, part: slice) -> None:
+        walking = tested[part]
+        x, y, z = (axis.take(walking) for axis in self._points)
+        triangle = self._triangle.take(walking)
+        self._beyond[walking] = self._over(z - self._tin.heights(x, y, triangle))
+        self._triangle[walking] = triangle
 
     def _over(self, above: np.ndarray) -> np.ndarray:
         """Return how far points lie beyond the tolerance, from their heights above the TIN."""
         parameters = self._parameters
         return np.maximum(above - parameters.tolerance_above, -above - parameters.tolerance_below)
 
-    def _violating(self, which: np.ndarray) -> np.ndarray:
+    def _violating(self, tested: np.ndarray) -> np.ndarray:
         """Return which of some points lie beyond the tolerance."""
         # Rounding may put a vertex into a triangle without area.
-        return which[(self._beyond[which] > _ROUNDING) & ~self.are_keys[which]]
+        return tested[(self._beyond[tested] > _ROUNDING) & ~self.are_keys[tested]]
 
     def _within(self, triangles: np.ndarray, pending: np.ndarray) -> np.ndarray:
         """Return the pending points that lie in the triangles of a mask (t,)."""
 
         def within(part: slice) -> np.ndarray:
-            some = pending[part]
-            return some[triangles.take(self._triangle.take(some))]
+            points = pending[part]
+            return points[triangles.take(self._triangle.take(points))]
 
         return np.concatenate(in_threads(within, parts_of(len(pending), _POINTS_A_PART)))
 
@@ -312,11 +312,11 @@ class _Keys:
         return these.
         """
         edges = self._tin.ambiguous_edges()
-        some = self._within(edges.reshape(-1, 3).any(axis=1), pending)
+        ambiguous = self._within(edges.reshape(-1, 3).any(axis=1), pending)
         for k in range(3):
-            edge = 3 * self._triangle[some] + k
-            beside, edge = some[edges[edge]], edge[edges[edge]]
+            edge = 3 * self._triangle[ambiguous] + k
+            beside, edge = ambiguous[edges[edge]], edge[edges[edge]]
             places = self._points.take(beside)
             beyond = self._over(places.z - self._tin.flipped_heights(places.x, places.y, edge))
             self._beyond[beside] = np.maximum(self._beyond[beside], beyond)
-        return some
+        return ambiguous

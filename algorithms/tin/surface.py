@@ -99,9 +99,9 @@ class Surface:
 
         def fill(block: tuple[np.ndarray, float]) -> tuple[np.ndarray, np.ndarray]:
             queries, size = block
-            some = x[queries], y[queries]
+            places = x[queries], y[queries]
             heights[queries], left, corners = self._block_heights(
-                *some, size, max_edge, cells, within
+                *places, size, max_edge, cells, within
             )
             return queries[left], corners
 
@@ -134,9 +134,9 @@ class Surface:
         with self._lock:
             if self._border_of_all is None:
                 x, y, _ = self._vertices
-                which = hull_corners(x, y)
-                borders = (_border(x[which], y[which], sign) for sign in (1.0, -1.0))
-                self._border_of_all = (*borders, which)
+                corners = hull_corners(x, y)
+                borders = (_border(x[corners], y[corners], sign) for sign in (1.0, -1.0))
+                self._border_of_all = (*borders, corners)
             return self._border_of_all
 
     def _blocks(self, x: np.ndarray, y: np.ndarray) -> Iterator[tuple[np.ndarray, float]]:
@@ -180,8 +180,8 @@ class Surface:
         are_all = len(self._meshed) == vertices.count
         borders = x.min() - margin, y.min() - margin, x.max() + margin, y.max() + margin
         is_one_block = len(self._meshed) <= _VERTICES_A_BLOCK
-        which = self._meshed if is_one_block else self._within(borders)
-        tin = Tin(*vertices.take(which))
+        meshed = self._meshed if is_one_block else self._within(borders)
+        tin = Tin(*vertices.take(meshed))
         progress(0.4)
         triangle = _located(tin, x, y, cells)
         progress(0.6)
@@ -195,7 +195,7 @@ class Surface:
         left = np.flatnonzero(is_left)
         used = np.unique(triangle[left])
         corners = np.unique(tin.triangles[used[used >= 0]])
-        return heights, left, which[tin.source[corners]]
+        return heights, left, meshed[tin.source[corners]]
 
     def _refined(
         self,
@@ -213,9 +213,9 @@ class Surface:
         heights, active = np.full(len(x), np.nan), np.arange(len(x))
         used, hull = np.union1d(vertices, self._hull[2]), self._hull[2]
         for _ in range(_MOST_STEPS):
-            tin, some = Tin(*self._vertices.take(used)), (x[active], y[active])
-            triangle = _located(tin, *some, cells)
-            heights[active] = tin.interpolate(*some, _without_long(tin, triangle, max_edge))
+            tin, places = Tin(*self._vertices.take(used)), (x[active], y[active])
+            triangle = _located(tin, *places, cells)
+            heights[active] = tin.interpolate(*places, _without_long(tin, triangle, max_edge))
             active, triangle = active[triangle >= 0], triangle[triangle >= 0]
             in_circle = self._in_circles(tin, triangle)
             # Rounding may put a vertex that the TIN has into one of its circles.
@@ -239,9 +239,9 @@ class Surface:
         """Return which of the vertices that are triangulated lie in a box."""
         west, south, east, north = box
         borders = np.searchsorted(self._vertices.x, (west, east))
-        which = self._meshed[slice(*np.searchsorted(self._meshed, borders))]
-        y = self._vertices.y[which]
-        return which[(y >= south) & (y <= north)]
+        inside = self._meshed[slice(*np.searchsorted(self._meshed, borders))]
+        y = self._vertices.y[inside]
+        return inside[(y >= south) & (y <= north)]
 
     def _in_circles(
         self, tin: Tin, triangle: np.ndarray, window: tuple[float, ...] | None = None

@@ -72,19 +72,19 @@ class Tin:
             triangle = self.locate(x, y)
         height = np.full(len(x), np.nan)
         inside = np.flatnonzero(triangle >= 0)
-        for some in parts_of(len(inside), _QUERIES_A_STEP):
-            part = inside[some]
+        for part in parts_of(len(inside), _QUERIES_A_STEP):
+            queries = inside[part]
             weights = self._opposite_areas(
-                x[part] - self._origin[0], y[part] - self._origin[1], triangle[part]
+                x[queries] - self._origin[0], y[queries] - self._origin[1], triangle[queries]
             )
             # A query on the hull may lie outside by rounding: it must not be extrapolated.
             weights = [np.maximum(weight, 0.0) for weight in weights]
-            corners = self.z[self.triangles[triangle[part]]]
+            corners = self.z[self.triangles[triangle[queries]]]
             weighted = sum(weight * corners[:, k] for k, weight in enumerate(weights))
             total = weights[0] + weights[1] + weights[2]
             # A triangle without area (three vertices on one line) has no weights: take its mean.
             with np.errstate(invalid="ignore", divide="ignore"):
-                height[part] = np.where(total > 0.0, weighted / total, corners.mean(axis=1))
+                height[queries] = np.where(total > 0.0, weighted / total, corners.mean(axis=1))
         return height
 
     def _near(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
@@ -240,9 +240,9 @@ def triangles_of_cells(
     last = np.minimum(np.floor(corners_y.max(axis=1) + _ON_ROW), shape[0] - 1).astype(np.int64)
     crossing = np.flatnonzero(first <= last)
     counts = last[crossing] - first[crossing] + 1
-    for some in _parts(counts):
-        triangle = np.repeat(crossing[some], counts[some])
-        row = first[triangle] + numbered(counts[some])
+    for part in _parts(counts):
+        triangle = np.repeat(crossing[part], counts[part])
+        row = first[triangle] + numbered(counts[part])
         west, east = _crossed(x, y, tin.triangles[triangle], row)
         left = np.maximum(np.ceil(west - _ON_ROW), 0).astype(np.int64)
         right = np.minimum(np.floor(east + _ON_ROW), shape[1] - 1).astype(np.int64)

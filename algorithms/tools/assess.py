@@ -126,10 +126,10 @@ def compare(
     """Compare a ground mask, bool (n,), with the reference classes of the same points."""
     counted = ~np.isin(reference, options.ignored_classes or ())
     classes = reference.astype(np.uint8, copy=False)
-    as_ground, as_other = (count_classes(classes[counted & which]) for which in (ground, ~ground))
+    as_ground, as_other = (count_classes(classes[counted & mask]) for mask in (ground, ~ground))
     truth = np.isin(np.arange(256), options.ground_classes)
     a, b, c, d = (
-        int(counts[which].sum()) for which in (truth, ~truth) for counts in (as_ground, as_other)
+        int(counts[mask].sum()) for mask in (truth, ~truth) for counts in (as_ground, as_other)
     )
     n = a + b + c + d
     chance = ((a + b) * (a + c) + (c + d) * (b + d)) / n**2 if n else float("nan")
@@ -178,9 +178,9 @@ def assess_files(
     rejected, accepted = counted & is_ground & ~ground, counted & ~is_ground & ground
     progress(0.75)
     if error_map is not None:
-        wrong, some = (rejected | accepted)[counted], points.take(counted)
+        wrong, compared = (rejected | accepted)[counted], points.take(counted)
         part, size = progress.part(0.75, 0.85), options.map_cell_size
-        _write_error_map(error_map, some, wrong, result.frame, size, part)
+        _write_error_map(error_map, compared, wrong, result.frame, size, part)
     if report is not None:
         relief = Relief.of(points)
         progress(0.92)
@@ -203,7 +203,7 @@ def _write_error_map(
     place = np.clip(row, 0, grid.rows - 1) * grid.columns + np.clip(column, 0, grid.columns - 1)
     progress(0.6)
     count, errors = (
-        np.bincount(some, minlength=grid.rows * grid.columns) for some in (place, place[wrong])
+        np.bincount(cells, minlength=grid.rows * grid.columns) for cells in (place, place[wrong])
     )
     share = np.where(count > 0, errors / np.maximum(count, 1), NODATA).astype(np.float32)
     share = share.reshape(grid.rows, grid.columns)
@@ -310,18 +310,16 @@ TOOL = FileTool(
         Input(
             "classified",
             "cloud",
-            help="the file to check",
+            help="The point cloud to check. Its class 2 counts as ground, all other classes do"
+            " not.",
             label="Classified point cloud",
-            field_help="The point cloud to check. Its class 2 counts as ground, all other classes"
-            " do not.",
         ),
         Input(
             "reference",
             "cloud",
-            help="a file with the same points and their true classes; one can be a part of the"
-            " other",
+            help="The same points with their true classes. One file can hold a part of the points"
+            " of the other.",
             label="Reference",
-            field_help="The same points, or some of them, with their true classes.",
         ),
         CRS,
     ),
@@ -329,32 +327,25 @@ TOOL = FileTool(
         Output(
             "report",
             "page",
-            help="write a report (.html)",
+            help="A web page with the figures, and a map of where the errors are.",
             label="Report",
-            field_help="A web page with the figures, and a map of where the errors are.",
         ),
         Output(
             "error_map",
             "raster",
-            help="write the share of wrong points in each cell, 0 to 1 (.tif)",
+            help="The share of wrong points in each cell of a raster, 0 to 1.",
             label="Error map",
-            field_help="The share of wrong points in each cell of a raster, 0 to 1.",
             by_default=False,
         ),
     ),
     json="",
     command="assess",
-    command_about="Compares the ground (class 2) of a classified file with a reference that holds"
-    " the same points, or a part of them: type I error (ground rejected), type II error (other"
-    " accepted), total error and kappa, in percent.",
     identifier="assess",
     title="Assess a ground classification",
     section="Quality",
-    summary="Compares a classified point cloud with a reference: type I and II error, kappa.",
-    about="Compares the ground of a classified point cloud with a reference that holds the same"
-    " points, or a part of them. Type I error: the share of the reference's ground that was"
-    " rejected. Type II error: the share of all other points that was accepted as ground. The"
-    " report is a web page with a map.",
+    about="Class 2 is ground, and the reference holds the same points, or a part of them. Type I"
+    " error: the share of the reference's ground that was rejected. Type II error: the share of all"
+    " other points that was accepted as ground. All figures are in percent.",
     page="check#against-a-reference",
     words=(CLOUD, "ground,accuracy,quality,error,validation,kappa,confusion matrix,reference"),
     numbers=(

@@ -17,7 +17,7 @@ from ..grids.morphology import within_square
 from ..rasters.content import NO_CELLS, Source
 from ..rasters.geotiff import Raster, read_raster
 from ..relief.local_relief import local_trend, reach_of
-from ..survey.feature_files import FORMATS, Feature, Layer, feature_writer
+from ..survey.feature_files import Feature, Layer, feature_writer
 from .declaration import FileTool, Input, Output
 
 # Lines of a map, about: it is easy to read then.
@@ -201,20 +201,25 @@ def _is_speck(line: Isoline, corners: np.ndarray, least: float) -> bool:
     return line.is_closed and float(np.hypot(*np.diff(corners, axis=0).T).sum()) < least
 
 
+CONTOUR_HELP = (
+    "Lines of equal height, with the height as the field ELEV. The field INDEX is 1 for every fifth"
+    " line. The lines are smoothed, so that they do not show noise."
+)
 TOOL = FileTool(
     work=draw_contours,
     sets=(Contours,),
-    inputs=(Input("source", "raster", help="a raster that GDAL reads", named="INPUT"),),
+    inputs=(
+        Input("source", "raster", help="A raster file with a band of heights.", named="INPUT"),
+    ),
     outputs=(
         Output(
             "output",
             "features",
-            help=f"the lines to write ({', '.join(FORMATS)}); all but .geojson need pyogrio",
+            help=CONTOUR_HELP,
             is_main=True,
         ),
     ),
     flags={"contour_interval": "interval"},
     command="contours",
-    command_about="Draws contour lines of an elevation raster, of its heights smoothed for the"
-    " lines only.",
+    about="The heights are smoothed for the lines only, so that they do not show noise.",
 )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, Callable, Mapping, NamedTuple, Sequence
 
@@ -11,6 +11,7 @@ from ..core.parameters import ParameterSet
 from ..core.progress import Progress
 from ..engine.step import PointStep, Step
 from ..survey.files import Inputs
+from .listing import listed
 
 # Search words of the toolbox that several tools share; each text is translated as a whole.
 CLOUD = "lidar,laser scanning,als,uav,drone,las,laz,copc,ept,point cloud"
@@ -45,18 +46,11 @@ class Input:
     kind: str
     # Makes the value of the field of a step from polygons, or from a raster and the progress.
     of: Callable[..., Any] = lambda value, *progress: value
-    help: str = ""  # of the option; of areas and clouds, what starts it; {formats}: of vectors
-    more: str = ""  # what ends the help of the options of an area or extent
-    # Of an area: the help of the fields of its extent and of its boundary.
-    area_help: tuple[str, str] = (
-        "Only points in this rectangle are classified, and rasters end at it. Points outside keep"
-        " their class, but those nearby help to judge. Empty: all points.",
-        "Only points in these polygons are classified, and rasters end at them; with an extent,"
-        " only what lies in both. Points outside keep their class, but those nearby help to judge."
-        " Empty: all points.",
-    )
+    # A sentence or several, for option, argument and field, which add what their kind needs, such
+    # as file formats; it may name tools and options as `in_words` has them. Of an area, {area} is
+    # its extent or its boundary.
+    help: str = ""
     label: str = ""  # of the field in the dialog; empty if there is none
-    field_help: str = ""
     named: str = ""  # the field and the argument, if not as the name in upper case
     optional: bool = False  # otherwise a cloud or a raster is an argument of the command
     advanced: bool = False
@@ -79,16 +73,30 @@ class ToFind(NamedTuple):
 
 
 # The points and their CRS, as most tools have them.
-POINTS = Input("input", "clouds", help="a classified file, or ", label="Classified point cloud")
-CRS = Input("crs", "crs", label="CRS of the points", optional=True, advanced=True)
-CLASSIFIED = Input(
-    "sources",
-    "clouds",
-    help="a classified file, or ",
-    label="Classified point cloud",
-    named="INPUT",
+POINTS = Input("input", "clouds", help="Classified points.", label="Classified point cloud")
+CRS = Input(
+    "crs",
+    "crs",
+    help="The CRS of the points, for files that state none or a wrong one. It replaces what files"
+    " state: it decides the units of lengths and heights, and rasters and layers get it. Written"
+    " point clouds keep the records that the files have. Empty: what the files state.",
+    label="CRS of the points",
+    optional=True,
+    advanced=True,
 )
-_CLOUD_HELP = "the file to write (.las, .laz or .copc.laz), or a folder if there are many inputs"
+CLASSIFIED = replace(POINTS, name="sources", named="INPUT")
+
+
+def with_note(help: str, note: str) -> str:
+    """Return a help text with a further sentence before the one on what is empty."""
+    first, empty, last = help.partition("Empty:")
+    return " ".join(filter(None, (first.strip(), note, f"{empty}{last}")))
+
+
+def help_of_area(help: str) -> tuple[str, str]:
+    """Return the help of the extent and of the boundary of an area, given that of the input."""
+    boundary = with_note(help, "With an extent, only what lies in both counts.")
+    return help.format(area="this rectangle"), boundary.format(area="these polygons")
 
 
 @dataclass(frozen=True)
@@ -100,9 +108,8 @@ class Output:
     # "raster", "features", "page", "table" or "folder"; of points "cloud", "points" for LAZ, or
     # for a new folder of such files, and "list" for the virtual point cloud of many files.
     kind: str
-    help: str  # of the option
+    help: str = ""  # a sentence or several, as of an input
     label: str = ""  # of the field in the dialog; empty if there is none
-    field_help: str = ""
     named: str = ""  # the field and the argument, if not as the name in upper case
     flag: str = ""  # of the command, if it is not made of the name
     is_main: bool = False  # whether the command needs it, as an argument without a flag
@@ -141,19 +148,37 @@ class Output:
         return self.kind if self.files is None else "raster"
 
 
+# The points that tools for the ground write, and the list of the files of a survey.
+CLOUD_OUTPUT = Output(
+    "output",
+    "cloud",
+    "The same points with their new classes.",
+    label="Classified point cloud",
+    is_main=True,
+)
+LIST_OUTPUT = Output(
+    "vpc",
+    "list",
+    "Of many files: the list of the classified ones, which QGIS 3.32 and newer shows as one layer."
+    " Without a name it is classified.vpc in their folder.",
+    label="Virtual point cloud",
+    named="OUTPUT_VPC",
+    by_default=False,
+)
+
+
 @dataclass(frozen=True)
 class Tool:
     """What all tools declare."""
 
     command: str
-    command_about: str  # its help; one line on it is in the list of all tools
     sets: tuple[type[ParameterSet], ...]  # in the order of the command
+    about: str = ""  # the paragraphs of its help that follow its line
+    own_line: str = ""  # of a dialog, in place of the one in the list of tools
 
     identifier: str = ""  # second half of the id in the toolbox, which never changes; may be empty
     title: str = ""
     section: str = "Products"  # of the toolbox
-    summary: str = ""  # the tooltip
-    about: str = ""  # first paragraphs of the help
     page: str = ""  # in the folder docs, perhaps with a section, as in "heights#model-key-points"
     words: tuple[str, ...] = ()  # for the search of the toolbox, separated by commas
     run_name: str = ""  # of the group of layers, if it is not the title
@@ -169,6 +194,16 @@ class Tool:
     dialog_sets: tuple[type[ParameterSet], ...] = ()
     # Parameters that are not advanced in the dialog, if not as declared.
     shown: tuple[str, ...] | None = None
+
+    @property
+    def line(self) -> str:
+        """A sentence on it."""
+        return self.own_line or listed(self.command).line
+
+    @property
+    def help(self) -> str:
+        """The paragraphs of its help, in command, dialog and library."""
+        return f"{self.line}\n{self.about}".rstrip()
 
     @property
     def sets_of_dialog(self) -> tuple[type[ParameterSet], ...]:
@@ -209,8 +244,7 @@ class PointTool(Tool):
     @property
     def all_outputs(self) -> tuple[Output, ...]:
         """The classified file, or the folder for those of a survey."""
-        label, text = self.output_label, self.output_help
-        return (Output("output", "cloud", _CLOUD_HELP, label, text, is_main=True),)
+        return (replace(CLOUD_OUTPUT, help=self.output_help, label=self.output_label),)
 
     def steps(
         self, sets: Sequence[ParameterSet], inputs: Mapping[str, Any], outputs: Mapping[str, Path]
@@ -254,7 +288,6 @@ class MapTool(Tool):
     # Returns the steps, given sets, and inputs and outputs by their names, none of which need be
     # there but the points.
     steps: Callable[..., tuple[Step, ...]] = _nothing
-    function_about: str = ""  # first paragraph of the documentation of the function
     # Without the points that it writes; asked for anew, since rows of rasters can be added.
     outputs: Callable[[], tuple[Output, ...]] = tuple
     points: Input = POINTS  # in the dialog
@@ -288,7 +321,6 @@ class Composition(Tool):
     # Gets the sources, the folder, the name of a table, the sets, the inputs by their names,
     # `progress` and `workers`; returns what `FileTool.work` does, with `failures` of files.
     work: Callable[..., Any] = _nothing
-    function_about: str = ""  # first paragraph of the documentation of the function
     tables: Mapping[str, Any] = field(default_factory=dict)  # by name; `about` is a sentence each
     chosen: str = ""  # the argument for the name of a table
     default: str = ""  # of it, in the function

@@ -98,22 +98,16 @@ TOOL = FileTool(
         Input(
             "address",
             "address",
-            help="the address (https, s3, gs or az) of a COPC file, of the ept.json of an EPT data"
+            help="The address (https, s3, gs or az) of a COPC file, of the ept.json of an EPT data"
             " set, of a virtual point cloud (.vpc), or of a STAC item or collection with such"
-            " files; or the path of one",
+            " files; or the path of one.",
             label="Remote point cloud",
             named="ADDRESS",
         ),
         Input(
             "area",
             "area",
-            help="download only points in",
-            more="; without an area all points",
-            area_help=(
-                "Only points in this rectangle are downloaded. Empty: all points.",
-                "Only points in these polygons are downloaded; with an extent, only points in both."
-                " Empty: all points.",
-            ),
+            help="Only points in {area} are downloaded. Empty: all points.",
             label="Area",
             optional=True,
         ),
@@ -122,24 +116,19 @@ TOOL = FileTool(
         Output(
             "output",
             "points",
-            help="the file to write (.copc.laz or .laz), or a new folder, without an ending, with a"
-            " file for each point cloud of a list",
+            help="The points, with all of their dimensions, as .copc.laz or .laz; of a list of"
+            " point clouds a new folder, without an ending, with a file for each of them.",
             label="Downloaded point cloud",
-            field_help="The points, with all of their dimensions, as .copc.laz or .laz.",
             is_main=True,
         ),
     ),
     command="fetch",
-    command_about="Downloads the points of a remote point cloud that lie in an area, and nothing"
-    " else: only the parts of the file that are needed, as they are, with all of their dimensions."
-    " If it is stopped, the same command goes on where it was.",
     identifier="fetch",
     title="Download part of a remote point cloud",
-    summary="Downloads the points of a remote point cloud that lie in an area.",
-    about="Downloads the points of a remote point cloud (COPC, EPT, or the one in a virtual point"
-    " cloud or STAC item that has points there) that lie in an extent or a boundary: only the parts"
-    " that are needed, as they are, with all of their dimensions. The log tells how much that is"
-    " before it begins. If it is stopped, the same run goes on where it was.",
+    about="Of a COPC file, an EPT data set, or the files of a virtual point cloud or STAC item that"
+    " have points there, only the parts that are needed are downloaded, as they are, with all of"
+    " their dimensions. The log tells how much that is before the download begins. If it is"
+    " stopped, the same run goes on where it was.",
     numbers=(("POINT_COUNT", "Points"),),
     page="fetch",
     words=(CLOUD, "download,remote,url,web,http,clip,cloud storage,reproject,utm"),

@@ -122,10 +122,10 @@ class MeasureHeights(PointStep):
         roads = np.sort(ground.positions[ground.flags[ROADS_FLAG]])
 
         def wanted(piece: BlockPoints) -> tuple[np.ndarray, Points]:
-            which = visit.core(piece)
+            inner = visit.core(piece)
             if len(roads):
-                which &= ~np.isin(piece.positions, roads)
-            return piece.positions[which], piece.points.take(which)
+                inner &= ~np.isin(piece.positions, roads)
+            return piece.positions[inner], piece.points.take(inner)
 
         leaves, part = visit.store.leaves.within(visit.block.box), progress.part(0.15, 0.3)
         found = visit.store.over_pieces(leaves, wanted, visit.corner, part, OTHERS)
@@ -257,27 +257,20 @@ TOOL = PointTool(
             "raster",
             HeightRaster.of,
             optional=True,
-            help="measure the heights above this raster, in the CRS of the points, and not above"
-            " the ground points; the points need no classes",
+            help="Heights are measured above this raster, in the CRS of the points, and not above"
+            " the ground points. The points need no classes. Empty: above the ground points.",
             label="Terrain model",
-            field_help="Heights are measured above this raster, and not above the ground points. It"
-            " must have the CRS of the points. Empty: above the ground points.",
             is_last=True,
         ),
     ),
     command="height",
-    command_about="Adds to every point its height above the TIN of the ground points, in the"
-    " vertical unit of the CRS. The input is a classified file, or many as one survey. Given a"
-    " terrain model, heights are above this raster.",
-    identifier="heightaboveground",
-    title="Height above ground",
-    summary="Adds the height of every point above the ground points of a point cloud.",
-    about="Adds the height above ground to every point of a classified point cloud: its height"
-    " above the triangulation (TIN) of the ground points or, outside of it, above the nearest"
-    " ground point. Heights are in the vertical unit of the CRS. They become an extra dimension,"
-    " HeightAboveGround, or replace z; nothing else in the file changes.\n"
+    about="Heights are measured above the triangulation (TIN) of the ground points or, outside of"
+    " it, above the nearest ground point, in the vertical unit of the CRS. They become an extra"
+    " dimension, HeightAboveGround, or replace z; nothing else in the file changes.\n"
     "With a terrain model, heights are measured above that raster, and the points need no"
     " classes.",
+    identifier="heightaboveground",
+    title="Height above ground",
     page="heights",
     words=(CLOUD, CANOPY, TIN, "height,extra bytes"),
     output_label="Point cloud with heights",

@@ -22,8 +22,7 @@ def describe(source: Path, crs: str | None = None, progress: Progress = SILENT) 
 TOOL = FileTool(
     work=describe,
     sets=(),
-    inputs=(Input("source", "cloud", help="a .las, .laz or .copc.laz file", named="FILE"), CRS),
+    inputs=(Input("source", "cloud", help="A .las, .laz or .copc.laz file.", named="FILE"), CRS),
     json="",
     command="info",
-    command_about="Describes a point cloud file.",
 )

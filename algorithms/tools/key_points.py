@@ -166,16 +166,11 @@ TOOL = PointTool(
     sets=(ModelKeyPoints, KeyPointMark, GroundClasses),
     dialog_sets=(ModelKeyPoints, GroundClasses, KeyPointMark),
     command="key-points",
-    command_about="Marks the model key points of a classified file, or of many as one survey: the"
-    " few ground points that a terrain model needs. No other ground point lies farther from their"
-    " TIN than the tolerances.",
     identifier="modelkeypoints",
     title="Classify model key points",
-    summary="Finds the few ground points that make as good a terrain model as all of them.",
-    about="Finds the few ground points of a classified point cloud that a terrain model needs. Of"
-    " all other ground points, none lies farther above or below the triangulation (TIN) of"
-    " these key points than the tolerances. Key points get a class of their own, or the"
-    " key-point flag; nothing else in the file changes.\n"
+    about="No other ground point lies farther above or below the triangulation (TIN) of these model"
+    " key points than the tolerances. Key points get a class of their own, or the key-point flag;"
+    " nothing else in the file changes.\n"
     "Lengths are metres, whatever the unit of the CRS.",
     page="heights#model-key-points",
     words=(CLOUD, TERRAIN, TIN, "ground,thin,thinning,generalize,keypoints,contours"),

@@ -184,9 +184,8 @@ TOOL = FileTool(
         Input(
             "source",
             "raster",
-            help="a raster that GDAL reads",
+            help="A surface model: a raster file with a band of heights.",
             label="Elevation raster",
-            field_help="A surface model: a raster file with a band of heights.",
             named="INPUT",
         ),
     ),
@@ -194,22 +193,18 @@ TOOL = FileTool(
         Output(
             "output",
             "raster",
-            help="a GeoTIFF (.tif) to write",
+            help="The same raster, with the terrain in place of the objects.",
             label="Without objects",
-            field_help="The same raster, with the terrain in place of the objects.",
             is_main=True,
             look="without objects",
         ),
     ),
     command="remove-off-terrain-objects",
-    command_about="Removes buildings, trees and other steep-sided objects from an elevation raster,"
-    " and fills the gaps smoothly.",
     identifier="removeoffterrainobjects",
     title="Remove off-terrain objects",
-    summary="Removes buildings, trees and other steep-sided objects from an elevation raster.",
-    about="Makes a terrain model from a surface model, if there is no point cloud. Removes what"
-    " stands above the terrain around it, has steep edges on all sides and is not wider than the"
-    " maximum object size. Fills the gaps smoothly. Hills and slopes stay.\n"
+    about="So a surface model becomes a terrain model, if there is no point cloud. An object stands"
+    " above the terrain around it, has steep edges on all sides and is not wider than the maximum"
+    " object size. The gaps are filled smoothly. Hills and slopes stay.\n"
     "The output has the same grid, CRS and unit. Lengths are metres, whatever the unit of the CRS.",
     page="relief#remove-off-terrain-objects",
     words=(

@@ -120,9 +120,8 @@ TOOL = FileTool(
         Input(
             "source",
             "raster",
-            help="a raster that GDAL reads",
+            help="A raster file with a band of heights.",
             label="Terrain model",
-            field_help="A raster file with a band of heights.",
             named="INPUT",
         ),
     ),
@@ -130,10 +129,9 @@ TOOL = FileTool(
         Output(
             "output",
             "folder",
-            help="a GeoTIFF (.tif) to write, or a folder if there are several kinds",
+            help="The folder for the rasters (GeoTIFF), which are named after what they show, such"
+            " as vat.tif and sky-view.tif; or the file (.tif) of a single one.",
             label="Folder of the rasters",
-            field_help="The folder for the rasters (GeoTIFF). They are named after what they show,"
-            " such as vat.tif and sky-view.tif.",
             named="OUTPUT_FOLDER",
             is_main=True,
             files=files_of,
@@ -143,15 +141,11 @@ TOOL = FileTool(
     flags={"kinds": "kind"},
     json=None,
     command="relief",
-    command_about="Makes a raster (GeoTIFF) that shows the relief of an elevation raster: local"
-    " relief, sky-view factor, openness, local dominance, slope, hillshade, or a picture of several"
-    " of them (vat, red-relief). They show mounds, walls, ditches and old paths.",
     identifier="relief",
     title="Relief of a terrain model",
-    summary="Shows mounds, walls, ditches and old paths: sky view, openness, local relief, VAT.",
-    about="Makes pictures of the relief of any elevation raster, on the same grid: sky-view factor,"
-    " openness, local dominance, local relief, slope, hillshade, archaeological topography (VAT)"
-    " and red relief. They show small features that a hillshade of one light hides.\n"
+    about="The pictures of the relief of any elevation raster, on the same grid, are sky-view"
+    " factor, openness, local dominance, local relief, slope, hillshade, archaeological topography"
+    " (VAT) and red relief. They show small features that a hillshade of one light hides.\n"
     "For walls and banks make the terrain model in cells of 0.25 to 0.5 m.",
     page="relief",
     run_name="relief",

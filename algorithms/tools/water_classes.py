@@ -104,13 +104,13 @@ def classes_at_water(
     """
     # Places and polygons are in units of the CRS, distances in metres. The classes 9 and 20 are
     # those of the Lidar Base Specification 2.1 of the U.S. Geological Survey.
-    found, which = classes.copy(), np.flatnonzero(ground)
-    if not polygons or not len(which):
+    found, candidates = classes.copy(), np.flatnonzero(ground)
+    if not polygons or not len(candidates):
         return found
-    inside = Area(None, polygons).contains(x[which], y[which])
-    found[which[inside]] = how.water_class
+    inside = Area(None, polygons).contains(x[candidates], y[candidates])
+    found[candidates[inside]] = how.water_class
     if how.shore_distance > 0.0:
-        land = which[~inside]
+        land = candidates[~inside]
         rings = [ring for polygon in polygons for ring in polygon]
         beside = near_rings(x[land], y[land], rings, how.shore_distance / unit)
         found[land[beside]] = how.ignored_class
@@ -194,21 +194,15 @@ TOOL = PointTool(
             "water",
             "polygons",
             WaterPolygons,
-            help="polygons of water ({formats}); with the word automatic, the water is found first,"
-            " as the command 'water' does",
+            help="Polygons of water, with islands as holes. In place of them, the word automatic,"
+            " or an empty field: the water is found first, as `water()` does by default.",
             label="Water",
-            field_help="Polygons of water, with islands as holes. Empty: the water is found first,"
-            " as 'Find water' does with its default values.",
             found=_found,
         ),
     ),
     command="water-classes",
-    command_about="Gives class 9 (water) to the ground points of a classified file, or of many as"
-    " one survey, that lie in polygons of water, and class 20 (ignored ground) to those beside the"
-    " shore, as the Lidar Base Specification asks for. Nothing else changes.",
     identifier="waterclasses",
     title="Classify water",
-    summary="Gives class 9 to ground points in water, and class 20 to those beside its shore.",
     about="Ground points in polygons of water become water (9), and those within a distance of the"
     " shore ignored ground (20), as the Lidar Base Specification asks for. Nothing else in the"
     " file changes: points with other classes keep them.",

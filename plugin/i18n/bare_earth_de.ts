@@ -988,8 +988,8 @@
         <translation>Von Bare Earth mit diesen Einstellungen gemacht:</translation>
     </message>
     <message>
-        <source>Makes a map of the terrain of a raw point cloud: classes, models, contours.</source>
-        <translation>Macht aus einer rohen Punktwolke eine Karte des Geländes: Klassen, Modelle, Höhenlinien.</translation>
+        <source>Classifies a raw point cloud, and makes everything that a job hands over.</source>
+        <translation>Klassifiziert eine rohe Punktwolke und erstellt alles, was ein Auftrag liefert.</translation>
     </message>
     <message>
         <source>Makes terrain model, surface model, canopy height and hillshade of a point cloud.</source>

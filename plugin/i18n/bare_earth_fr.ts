@@ -988,8 +988,8 @@
         <translation>Produit par Bare Earth avec ces réglages :</translation>
     </message>
     <message>
-        <source>Makes a map of the terrain of a raw point cloud: classes, models, contours.</source>
-        <translation>Produit une carte du terrain à partir d'un nuage de points brut : classes, modèles, courbes de niveau.</translation>
+        <source>Classifies a raw point cloud, and makes everything that a job hands over.</source>
+        <translation>Classe un nuage de points brut et produit tout ce qu'un projet livre.</translation>
     </message>
     <message>
         <source>Makes terrain model, surface model, canopy height and hillshade of a point cloud.</source>

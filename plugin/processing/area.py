@@ -15,7 +15,7 @@ from ...algorithms.core.parameters import ParameterSet
 from ...algorithms.core.progress import Progress
 from ...algorithms.survey.area import Area, Polygon
 from ...algorithms.survey.shapes import Shapes
-from ...algorithms.tools.declaration import Input
+from ...algorithms.tools.declaration import Input, help_of_area
 from ...algorithms.tools.ground.output import Output
 from .. import compat
 from ..i18n import mark
@@ -32,7 +32,7 @@ def add_area(algorithm: QgsProcessingAlgorithm, declared: Input) -> None:
     extent = QgsProcessingParameterExtent("EXTENT", "Extent", None, True)
     kinds = [compat.POLYGONS]
     boundary = QgsProcessingParameterFeatureSource(*_BOUNDARY, kinds, None, True)
-    for field, text in zip((extent, boundary), declared.area_help):
+    for field, text in zip((extent, boundary), help_of_area(declared.help)):
         if declared.advanced or field is boundary:
             field.setFlags(field.flags() | compat.ADVANCED)
         algorithm.addParameter(field, text)

@@ -20,6 +20,7 @@ from qgis.PyQt.QtGui import QIcon
 from ...algorithms.core.commands import shell_line
 from ...algorithms.core.errors import BareEarthError, Cancelled
 from ...algorithms.core.parameters import Declaration, ParameterSet, shown_value
+from ...algorithms.core.words import in_words
 from ...algorithms.las.backends import install_hint, missing_packages
 from ...algorithms.remote.cache import addresses_named
 from ...algorithms.survey.files import Inputs
@@ -44,13 +45,13 @@ _ICONS = Path(__file__).parents[1] / "icons"
 class BareEarthAlgorithm(QgsProcessingAlgorithm):
     """Base class of the algorithms, whose subclasses set texts, declare fields and compute."""
 
-    # identifier: second half of the id, which never changes; title, section, summary: name and
+    # identifier: second half of the id, which never changes; title, section, line: name and
     # group in the toolbox, and the tooltip; about: first paragraphs of the help; page: in the
     # folder docs; run_name: name of the group of layers after that of the input, the title if
     # empty; subject: name of the input, set by `find_inputs`; class_counts: points of each class in
     # the output for the end of the log, set by `compute`.
 
-    identifier = title = section = summary = about = page = run_name = subject = ""
+    identifier = title = section = line = about = page = run_name = subject = ""
     words: tuple[str, ...] = ()  # for the search of the toolbox, separated by commas
     cancelled = NOTHING_STAYS  # message in the log after a cancel
     shown: tuple[str, ...] | None = None  # parameters that are not advanced; None: as declared
@@ -137,7 +138,7 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
     def addParameter(self, field: QgsProcessingParameterDefinition, help: str = "") -> bool:
         """Add a field to the dialog, with its label in the user's language."""
         field.setDescription(tr(field.description()))
-        field.setHelp(help or field.help())
+        field.setHelp(in_words(help or field.help()))
         return super().addParameter(field)
 
     def addOutput(self, output: QgsProcessingOutputDefinition) -> bool:
@@ -196,7 +197,7 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
 
     def shortDescription(self) -> str:
         """Return the tooltip."""
-        return tr(self.summary)
+        return tr(self.line)
 
     def tags(self) -> list[str]:
         """Return the words for the search of the toolbox."""
@@ -213,7 +214,7 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
             self.parameterDefinitions(),
             key=lambda field: (field.isDestination(), bool(field.flags() & compat.ADVANCED)),
         )
-        paragraphs = [self.about]
+        paragraphs = [in_words(self.about)]
         for field in ordered:
             paragraphs.append(f"<b>{_plain(field.description())}</b>: {_plain(field.help())}")
             if field.name() == "PRESET":

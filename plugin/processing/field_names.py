@@ -19,6 +19,10 @@ class Fields(Keywords):
         self._titles = {"clear-cache": tr("Remove downloaded point clouds")}  # in the menu
         for algorithm in algorithms:
             self._titles.setdefault(algorithm.command, algorithm.displayName())
+
+    def add_labels(self, algorithms: Iterable[Any]) -> None:
+        """Add the labels of algorithms, which have fields only when they are registered."""
+        for algorithm in algorithms:
             for field in algorithm.parameterDefinitions():
                 for command in (algorithm.command, ""):
                     key = command, field.name().lower()

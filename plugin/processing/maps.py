@@ -11,8 +11,8 @@ from ...algorithms.classes.selection import Selection
 from ...algorithms.core.parameters import ParameterSet
 from ...algorithms.tools import map_tool
 from ...algorithms.tools.declaration import MapTool
+from ...algorithms.tools.ground.dialogs import METHOD_TOOLS, as_command
 from ...algorithms.tools.ground.output import Output
-from ...algorithms.tools.ground.tool import METHOD_TOOLS, as_command
 from ...algorithms.tools.rasters.parameters import RasterOutput, TerrainModel
 from ..i18n import mark
 from .base import command_line

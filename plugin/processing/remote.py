@@ -13,15 +13,16 @@ from qgis.core import (
     QgsProviderRegistry,
 )
 
-from ...algorithms.library.remote_points import MOST
+from ...algorithms.library.arguments import LIMIT_HELP, MOST
 from ...algorithms.remote.addresses import checked, name_of
 from .. import compat
 from ..network import use_for
 
+# Ends the help of an input that is an address.
+LAYER_HELP = "Also a point cloud layer. Only what lies in the extent is downloaded."
 ADDRESS_HELP = (
-    "A point cloud layer, or the address (https://...) of a COPC file, of the ept.json of an EPT"
-    " data set, of a virtual point cloud or of a STAC item. Only what lies in the extent is"
-    " downloaded."
+    "The address (https://...) of a COPC file, of the ept.json of an EPT data set, of a virtual"
+    f" point cloud or of a STAC item. {LAYER_HELP}"
 )
 # Ends the help of other inputs.
 ALSO_REMOTE = (
@@ -36,10 +37,6 @@ REMOTE = "REMOTE"
 _PART_HELP = (
     "The points of a remote point cloud that lie in this rectangle are downloaded, and are all that"
     " is used. Only for point clouds that are not on this computer."
-)
-_LIMIT_HELP = (
-    "Gigabytes that may be downloaded of a remote point cloud. The log tells how many it takes"
-    " before the download begins; more are refused."
 )
 # QGIS 3.40 and newer hand over such a source of a layer: its provider and its address.
 _WITH_PROVIDER = re.compile(r"(copc|ept|vpc|pdal)://(?=[a-z][a-z0-9]+://)")
@@ -81,7 +78,7 @@ def add_remote(algorithm: QgsProcessingAlgorithm, has_area: bool) -> None:
             LIMIT, "Limit of the download [GB]", compat.NUMBER, MOST, True, 0.0, 100_000.0
         )
     ]
-    helps = {LIMIT: _LIMIT_HELP, PART: _PART_HELP}
+    helps = {LIMIT: LIMIT_HELP, PART: _PART_HELP}
     if not has_area:
         label = "Extent of a remote point cloud"
         fields.insert(0, QgsProcessingParameterExtent(PART, label, None, True))

@@ -1,4 +1,4 @@
-"""The field for the CRS of the points, for files that state none or a wrong one."""
+"""The CRS of the points that a user states in a dialog."""
 
 from __future__ import annotations
 
@@ -8,7 +8,6 @@ from qgis.core import (
     QgsCoordinateReferenceSystem,
     QgsProcessingAlgorithm,
     QgsProcessingContext,
-    QgsProcessingParameterCrs,
 )
 
 from .. import compat
@@ -16,18 +15,6 @@ from ..i18n import mark
 from .feedback import Refusal
 
 _NAME = "CRS"
-_HELP = (
-    "The CRS of the points, for files that state none or a wrong one. It replaces what files state:"
-    " it decides the units of lengths and heights, and rasters and layers get it. Written point"
-    " clouds keep the records that the files have. Empty: what the files state."
-)
-
-
-def add_crs(algorithm: QgsProcessingAlgorithm) -> None:
-    """Add the field to a dialog, as an advanced parameter."""
-    field = QgsProcessingParameterCrs(_NAME, "CRS of the points", None, True)
-    field.setFlags(field.flags() | compat.ADVANCED)
-    algorithm.addParameter(field, _HELP)
 
 
 def stated_crs_of(

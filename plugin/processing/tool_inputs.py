@@ -9,6 +9,7 @@ from typing import Any, Callable, Mapping, NamedTuple, Sequence
 
 from qgis.core import (
     QgsProcessingContext,
+    QgsProcessingParameterCrs,
     QgsProcessingParameterDefinition,
     QgsProcessingParameterExtent,
     QgsProcessingParameterFeatureSource,
@@ -22,7 +23,7 @@ from ...algorithms.core.progress import SILENT, Progress
 from ...algorithms.rasters.cell_grid import RasterTarget
 from ...algorithms.survey.area import Area
 from ...algorithms.survey.vector_files import CLASS_FIELD
-from ...algorithms.tools.declaration import Input, ToFind
+from ...algorithms.tools.declaration import Input, ToFind, with_note
 from ...algorithms.tools.input_groups import GROUPS
 from ...algorithms.tools.rasters.constraints import Constraints
 from .. import compat
@@ -48,8 +49,8 @@ from .inputs import (
     survey_of,
     words_of,
 )
-from .remote import ADDRESS_HELP, Remote
-from .stated_crs import add_crs, text_of
+from .remote import LAYER_HELP, Remote
+from .stated_crs import text_of
 
 # What is said of rasters that are no files, by the names of their inputs.
 _NO_FILES = {
@@ -111,13 +112,18 @@ def add_input(algorithm: BareEarthAlgorithm, declared: Input) -> None:
         "clouds": lambda: SurveyInput(name, label),
         "address": lambda: PointCloudInput(name, label),
         "raster": lambda: QgsProcessingParameterRasterLayer(name, label, None, declared.optional),
+        "crs": lambda: QgsProcessingParameterCrs(name, label, None, True),
         "extent": lambda: QgsProcessingParameterExtent(name, label, None, True),
         "words": lambda: QgsProcessingParameterString(name, label, None, False, True),
         "attribute": lambda: QgsProcessingParameterField(
             name, label, *_ATTRIBUTES[name], optional=True
         ),
     }
-    helps = {"cloud": CLOUD_HELP, "clouds": ANY_CLOUD_HELP, "address": ADDRESS_HELP}
+    helps = {
+        "cloud": CLOUD_HELP, "clouds": ANY_CLOUD_HELP, "address": LAYER_HELP,
+        "points": "They are of any CRS, or a table (.csv, .txt, .xyz) in the CRS of the points.",
+        "words": "Words are separated by commas.",
+    }  # fmt: skip
     if declared.kind == "points":
         field = CheckpointInput(name, label, [compat.TABLES], None, True)
     elif declared.kind in _LAYERS:
@@ -127,7 +133,7 @@ def add_input(algorithm: BareEarthAlgorithm, declared: Input) -> None:
         field = makers[declared.kind]()
     if declared.advanced:
         field.setFlags(field.flags() | compat.ADVANCED)
-    algorithm.addParameter(field, declared.field_help or helps.get(declared.kind, ""))
+    algorithm.addParameter(field, with_note(declared.help, helps.get(declared.kind, "")))
 
 
 def given(request: Request, declared: Input) -> Given:
@@ -312,5 +318,5 @@ _READERS: dict[str, Callable[[Request, Input], Given]] = {
 }  # fmt: skip
 # Inputs with fields of their own.
 _GROUPS: dict[str, Callable[[BareEarthAlgorithm], None]] = {
-    "crs": add_crs, "files": add_clouds, "survey": add_survey,
+    "files": add_clouds, "survey": add_survey,
 }  # fmt: skip

@@ -24,9 +24,10 @@ from ...algorithms.core.files import split_name
 from ...algorithms.core.parameters import ParameterSet
 from ...algorithms.engine.memory import Resources
 from ...algorithms.survey.files import Inputs
-from ...algorithms.tools import FILE_TOOLS, POINT_TOOLS, file_tool, point_tool
-from ...algorithms.tools.declaration import FileTool, Output, PointTool, Tool
+from ...algorithms.tools import file_tool, point_tool
+from ...algorithms.tools.declaration import FileTool, Output, PointTool, Tool, with_note
 from ...algorithms.tools.heights import HEIGHT_DIMENSION
+from ...algorithms.tools.listing import FILE_TOOLS, POINT_TOOLS
 from .. import compat
 from ..i18n import mark, tr
 from ..styles import layers
@@ -66,7 +67,7 @@ class ToolAlgorithm(BareEarthAlgorithm):
         super().__init__()
         self._tool = tool
         self.identifier, self.page, self.section = tool.identifier, tool.page, tool.section
-        self.title, self.summary, self.about = tool.title, tool.summary, tool.about
+        self.title, self.line, self.about = tool.title, tool.line, tool.help
         self.run_name, self.shown, self.words = tool.run_name, tool.shown, tool.words
         self._inputs = [declared for declared in tool.all_inputs if declared.label]
         self._outputs = [output for output in tool.all_outputs if output.label]
@@ -112,7 +113,8 @@ class ToolAlgorithm(BareEarthAlgorithm):
             field = _field_of(output)
             if output.advanced:  # QGIS shows it below the other outputs: it folds only inputs away
                 field.setFlags(field.flags() | compat.ADVANCED)
-            self.addParameter(field, output.field_help)
+            note = "The Results Viewer opens it." if output.kind == "page" else ""
+            self.addParameter(field, with_note(output.help, note))
             for name, label in output.layers.items():
                 self.addOutput(QgsProcessingOutputRasterLayer(name.upper(), label))
             if output.page:

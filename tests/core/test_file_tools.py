@@ -10,7 +10,8 @@ from toy_file_tool import TOOL, Lift, add_toy
 
 import bare_earth
 from bare_earth import BareEarthError
-from bare_earth.algorithms.tools import FILE_TOOLS, file_tool
+from bare_earth.algorithms.tools import file_tool
+from bare_earth.algorithms.tools.listing import FILE_TOOLS
 from bare_earth.algorithms.tools.running import run
 
 rasterio = pytest.importorskip("rasterio")
@@ -41,9 +42,10 @@ def heights(path):
 
 def test_a_new_tool_is_found_in_the_command_line(toy, land, tmp_path):
     _, listed, _ = said("--help")
-    assert "make land higher" in listed
+    assert toy.line in listed
     code, shown, _ = said(toy.command, "--help")
-    assert code == 0 and toy.command_about in shown and "--lift m" in shown and "--table" in shown
+    assert code == 0 and f"{toy.line} {toy.about}" in shown
+    assert "--lift m" in shown and "--table" in shown
     target, table = tmp_path / "high.tif", tmp_path / "cells.csv"
     words = "--lift", "5", "--table", table
     code, told, _ = said(toy.command, land, target, *words, "--json")
@@ -56,7 +58,7 @@ def test_a_new_tool_is_found_in_the_command_line(toy, land, tmp_path):
 def test_a_new_tool_is_a_function_of_the_library(toy, land, tmp_path):
     done = bare_earth.lift(land, tmp_path / "high.tif", lift=3, table=tmp_path / "cells.csv")
     assert done.cell_count > 0 and (tmp_path / "cells.csv").read_text().startswith("cells")
-    assert toy.command_about in bare_earth.lift.__doc__
+    assert f"{toy.line}\n\n{toy.about}" in bare_earth.lift.__doc__
     with pytest.raises(TypeError, match=r"lift.. has no parameter lifted. Did you mean lift"):
         bare_earth.lift(land, tmp_path / "high.tif", lifted=3)
 

@@ -13,7 +13,10 @@ from surveys import write
 from toy_tool import TOOL, add_toy
 
 import bare_earth
-from bare_earth.algorithms.tools import FILE_TOOLS, POINT_TOOLS
+from bare_earth.algorithms.core.words import Flags, Keywords, in_words, use_names
+from bare_earth.algorithms.tools import any_tool
+from bare_earth.algorithms.tools.input_groups import GROUPS
+from bare_earth.algorithms.tools.listing import COMPOSITIONS, FILE_TOOLS, MAP_TOOLS, POINT_TOOLS
 
 
 @pytest.fixture
@@ -32,9 +35,9 @@ def ground(tmp_path):
 
 def test_a_new_tool_is_found_in_the_command_line(toy, ground, tmp_path):
     _, listed, _ = said("--help")
-    assert f"{toy.command}       {POINT_TOOLS[toy.command].help}" in listed
+    assert f"{toy.command}       {toy.line}" in listed
     code, shown, _ = said(toy.command, "--help")
-    assert code == 0 and toy.command_about in " ".join(shown.split())
+    assert code == 0 and f"{toy.line} {toy.about}" in " ".join(shown.split())
     assert "--new-class" in shown and "--ground-classes" in shown and "--resume" in shown
     words = toy.command, ground, tmp_path / "out.laz", "--new-class", "40", "--json"
     code, printed, _ = said(*words)
@@ -46,13 +49,36 @@ def test_a_new_tool_is_found_in_the_command_line(toy, ground, tmp_path):
 def test_a_new_tool_is_a_function_of_the_library(toy, ground, tmp_path):
     function = bare_earth.rename_ground
     assert "rename_ground" in dir(bare_earth)
-    assert toy.command_about in function.__doc__ and "ToySummary" in function.__doc__
+    assert f"{toy.line}\n\n{toy.about}" in function.__doc__ and "ToySummary" in function.__doc__
     assert inspect.signature(function).parameters["new_class"].default == 31
     one = function(ground, tmp_path / "out.laz", new_class=40)
     many = function([ground.parent], tmp_path / "many", new_class=40)
     assert one.new_count == many.class_counts[40] == 200
     again = function([ground.parent], tmp_path / "many", new_class=40, resume=True)
     assert again.kept_count == 1
+
+
+@pytest.mark.parametrize("name", (*POINT_TOOLS, *MAP_TOOLS, *FILE_TOOLS, *COMPOSITIONS))
+def test_each_text_of_a_tool_is_sentences_for_command_library_and_dialog(name):
+    tool = any_tool(name)
+    dialog = getattr(tool, "dialog_outputs", tuple)
+    declared = (*tool.all_inputs, *tool.inputs, *tool.all_outputs, *dialog())
+    parts = [part for one in declared for part in GROUPS.get(one.kind, ())]
+    for text in (tool.line, *tool.help.split("\n"), *(one.help for one in (*declared, *parts))):
+        assert text == "" or (text[0].isupper() and text.endswith(".") and "--" not in text), text
+
+
+def test_a_help_names_tools_and_options_as_its_reader_knows_them():
+    text = "As `remove_off_terrain_objects()` does, with `max_edge`."
+    before = use_names(Flags())
+    try:
+        there = in_words(text)
+        use_names(Keywords())
+        here = in_words(text)
+    finally:
+        use_names(before)
+    assert there == "As 'bare-earth remove-off-terrain-objects' does, with --max-edge."
+    assert here == "As bare_earth.remove_off_terrain_objects() does, with 'max_edge'."
 
 
 def test_a_command_imports_no_other_tool():

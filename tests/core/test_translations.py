@@ -7,6 +7,7 @@ import qm
 import translations
 
 from bare_earth.algorithms.filters import METHODS
+from bare_earth.algorithms.tools.ground.dialogs import METHOD_TOOLS
 
 ALL = {name.stem.rpartition("_")[2]: qm.read_ts(name.read_bytes()) for name in translations.FILES}
 # Without those that wait for their translator.
@@ -37,8 +38,10 @@ def test_most_of_what_the_plugin_says_has_a_translation(language):
 
 def test_most_labels_of_the_ground_filters_have_a_translation(language):
     labels = set()
+    for tool in METHOD_TOOLS:
+        labels |= {tool.title, tool.line}
     for method in METHODS.values():
-        labels |= {method.label, method.toolbox.title, method.toolbox.summary}
+        labels.add(method.label)
         for declaration in method.parameters.declarations():
             labels |= {declaration.label, *declaration.choices.values()}
     assert share_translated(language, labels) > 0.9

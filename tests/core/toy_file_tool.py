@@ -11,8 +11,8 @@ from bare_earth import Progress
 from bare_earth.algorithms.core.parameters import ParameterSet, parameter
 from bare_earth.algorithms.rasters.geotiff import NODATA, read_raster
 from bare_earth.algorithms.rasters.writing import write_geotiff
-from bare_earth.algorithms.tools import FILE_TOOLS, Listed
 from bare_earth.algorithms.tools.declaration import TERRAIN, FileTool, Input, Output
+from bare_earth.algorithms.tools.listing import FILE_TOOLS, Listed
 
 
 @dataclass(frozen=True)
@@ -46,18 +46,14 @@ def lift_raster(source, output, table, lift=Lift(), progress=Progress()):
 TOOL = FileTool(
     work=lift_raster,
     sets=(Lift,),
-    inputs=(
-        Input("source", "raster", help="a raster that GDAL reads", label="Land", named="INPUT"),
-    ),
+    inputs=(Input("source", "raster", help="A raster of heights.", label="Land", named="INPUT"),),
     outputs=(
-        Output("output", "raster", "a GeoTIFF (.tif)", "Higher land", look="dtm", is_main=True),
-        Output("table", "table", "write the number of cells (.csv)"),
+        Output("output", "raster", "The higher land.", "Higher land", look="dtm", is_main=True),
+        Output("table", "table", "The number of cells."),
     ),
     command="lift",
-    command_about="Lifts a raster of heights.",
     identifier="lift",
     title="Lift land",
-    summary="Makes land higher.",
     about="All cells get higher. Nothing else changes.",
     page="index",
     words=(TERRAIN, "toy"),
@@ -70,4 +66,4 @@ def add_toy(monkeypatch):
     module = types.ModuleType("bare_earth.algorithms.tools.lift")
     module.TOOL = TOOL
     monkeypatch.setitem(sys.modules, module.__name__, module)
-    monkeypatch.setitem(FILE_TOOLS, TOOL.command, Listed("lift", "make land higher"))
+    monkeypatch.setitem(FILE_TOOLS, TOOL.command, Listed("lift", "Makes land higher."))

@@ -14,8 +14,8 @@ from bare_earth.algorithms.engine.blocks import Blocks
 from bare_earth.algorithms.engine.step import PointStep, with_classes
 from bare_earth.algorithms.engine.store import Marks
 from bare_earth.algorithms.engine.summary import TileSummary
-from bare_earth.algorithms.tools import POINT_TOOLS, Listed
 from bare_earth.algorithms.tools.declaration import CLOUD, PointTool
+from bare_earth.algorithms.tools.listing import POINT_TOOLS, Listed
 
 
 @dataclass(frozen=True)
@@ -72,11 +72,9 @@ TOOL = PointTool(
     list_name="toy.vpc",
     sets=(NewClass, GroundClasses),
     command="rename-ground",
-    command_about="Gives the ground points of a classified file another class.",
     identifier="renameground",
     title="Rename ground",
-    summary="Gives ground points another class.",
-    about="Ground points get another class. Nothing else changes.",
+    about="Nothing else changes.",
     page="index",
     words=(CLOUD, "toy"),
     output_label="Point cloud with renamed ground",
@@ -90,5 +88,5 @@ def add_toy(monkeypatch):
     module = types.ModuleType("bare_earth.algorithms.tools.rename_ground")
     module.TOOL = TOOL
     monkeypatch.setitem(sys.modules, module.__name__, module)
-    listed = Listed("rename_ground", "give the ground another class")
+    listed = Listed("rename_ground", "Gives ground points another class.")
     monkeypatch.setitem(POINT_TOOLS, TOOL.command, listed)

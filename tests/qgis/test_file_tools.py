@@ -34,12 +34,12 @@ def land(tmp_path):
 def test_a_new_tool_is_in_the_toolbox_with_its_help(registry, provider):
     algorithm = registry.createAlgorithmById(ID)
     assert (algorithm.displayName(), algorithm.group()) == (TOOL.title, "Products")
-    assert algorithm.shortDescription() == TOOL.summary and "toy" in algorithm.tags()
+    assert algorithm.shortDescription() == TOOL.line and "toy" in algorithm.tags()
     names = [field.name() for field in algorithm.parameterDefinitions()]
     assert names == ["INPUT", "LIFT", "OUTPUT"]
     assert [made.name() for made in algorithm.outputDefinitions()] == ["OUTPUT", "CELL_COUNT"]
     text = algorithm.shortHelpString()
-    assert text.startswith(TOOL.about) and "How much higher all land gets." in text
+    assert text.startswith(TOOL.help) and "How much higher all land gets." in text
 
 
 def test_a_new_tool_runs_and_its_layer_has_a_style(provider, land, tmp_path, log):

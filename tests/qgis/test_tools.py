@@ -21,7 +21,7 @@ def provider(registry, monkeypatch):
 def test_a_new_tool_is_in_the_toolbox_with_its_help(registry, provider):
     algorithm = registry.createAlgorithmById(ID)
     assert (algorithm.displayName(), algorithm.group()) == (TOOL.title, "Products")
-    assert algorithm.shortDescription() == TOOL.summary and "toy" in algorithm.tags()
+    assert algorithm.shortDescription() == TOOL.line and "toy" in algorithm.tags()
     names = [definition.name() for definition in algorithm.parameterDefinitions()]
     assert names[:2] == ["INPUT", "CRS"] and names[-1] == "OUTPUT"
     assert {"NEW_CLASS", "GROUND_CLASSES", "THREADS"} <= set(names)
@@ -30,7 +30,7 @@ def test_a_new_tool_is_in_the_toolbox_with_its_help(registry, provider):
         "NEW_COUNT",
     ]
     text = algorithm.shortHelpString()
-    assert text.startswith(TOOL.about) and "The class that ground points get." in text
+    assert text.startswith(TOOL.help) and "The class that ground points get." in text
 
 
 def test_a_new_tool_runs(registry, provider, scene, tmp_path):

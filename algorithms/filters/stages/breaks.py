@@ -174,12 +174,12 @@ def mean_surface(points: Points, seeds: np.ndarray, cells: Cells, spacing: float
     return ndimage.uniform_filter(surface, width, mode="nearest")
 
 
-def _extreme(cells: Cells, points: Points, which: np.ndarray, sign: float = 1.0) -> np.ndarray:
+def _extreme(cells: Cells, points: Points, selected: np.ndarray, sign: float = 1.0) -> np.ndarray:
     """Return the lowest of some points in each cell, or with a sign of -1 the negative of the
     highest; infinite where there is none.
     """
     lowest = np.full(cells.rows * cells.columns, np.inf, dtype=np.float32)
-    lower_at(lowest, cells.index[which], (sign * points.z[which]).astype(np.float32))
+    lower_at(lowest, cells.index[selected], (sign * points.z[selected]).astype(np.float32))
     return lowest.reshape(cells.shape)
 
 

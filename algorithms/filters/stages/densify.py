@@ -94,10 +94,10 @@ class Densification(PointRule):
         state.seeds, state.waiting = np.append(state.seeds, joined), waiting[:0]
 
 
-def with_lower(heights: np.ndarray, cells: Cells, points: Points, which: np.ndarray) -> np.ndarray:
+def with_lower(heights: np.ndarray, cells: Cells, points: Points, added: np.ndarray) -> np.ndarray:
     """Return a grid of lowest heights (NaN where there is none) with some more points."""
     lowest = heights.ravel().copy()
-    np.fmin.at(lowest, cells.index[which], points.z[which])
+    np.fmin.at(lowest, cells.index[added], points.z[added])
     return lowest.reshape(heights.shape)
 
 
@@ -284,13 +284,13 @@ def _distance_and_angle(
     px, py, pz = points.x.copy(), points.y.copy(), points.z
     if steep.any():
         nearest = np.argmin((x - px[:, None]) ** 2 + (y - py[:, None]) ** 2, axis=1)
-        which = np.flatnonzero(steep)
-        px[which] = 2 * x[which, nearest[which]] - px[which]
-        py[which] = 2 * y[which, nearest[which]] - py[which]
-        beyond = survey.triangles(vertices, px[which], py[which])
+        mirrored = np.flatnonzero(steep)
+        px[mirrored] = 2 * x[mirrored, nearest[mirrored]] - px[mirrored]
+        py[mirrored] = 2 * y[mirrored, nearest[mirrored]] - py[mirrored]
+        beyond = survey.triangles(vertices, px[mirrored], py[mirrored])
         inside = beyond[:, 0] >= 0
         corners = corners.copy()
-        corners[which[inside]] = beyond[inside]
+        corners[mirrored[inside]] = beyond[inside]
         x, y, z = survey.places(corners)
         normal, _ = _facets(x, y, z)
     height = pz - (z[:, 0] + normal[0] * (px - x[:, 0]) + normal[1] * (py - y[:, 0]))

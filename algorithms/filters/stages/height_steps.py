@@ -211,12 +211,12 @@ class HeightSteps:
             for backward in (False, True):
                 neighbour = cells - step.offset if backward else cells + step.offset
                 level = step.sign[neighbour if backward else cells] == 0
-                which = np.flatnonzero(level & (regions[neighbour] > 0))
-                rise = np.abs(self._rise(cells[which], step, backward))
-                better = rise < least[which]
-                which = which[better]
-                least[which] = rise[better]
-                joined[which] = regions[neighbour[which]]
+                joining = np.flatnonzero(level & (regions[neighbour] > 0))
+                rise = np.abs(self._rise(cells[joining], step, backward))
+                better = rise < least[joining]
+                joining = joining[better]
+                least[joining] = rise[better]
+                joined[joining] = regions[neighbour[joining]]
         regions[cells] = joined
 
     def _border(self, regions: np.ndarray, count: int, steps: list[_Steps]) -> Border:

@@ -116,9 +116,9 @@ def _rises(
         rise = points.z[part] - height.take(cell)
         rise -= to_north.take(cell) * north
         rise -= to_east.take(cell) * east
-        which = np.flatnonzero(np.abs(rise) <= _FARTHEST)
-        rise = np.rint(rise[which] * _STEPS_A_METRE) / _STEPS_A_METRE
-        return cell[which], rise.astype(np.float32)
+        close = np.flatnonzero(np.abs(rise) <= _FARTHEST)
+        rise = np.rint(rise[close] * _STEPS_A_METRE) / _STEPS_A_METRE
+        return cell[close], rise.astype(np.float32)
 
     def joined(part: slice) -> tuple[np.ndarray, np.ndarray]:
         pieces = [

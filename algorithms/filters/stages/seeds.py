@@ -110,10 +110,10 @@ class KnownGround(PointRule):
         """Add the known points to the seeds."""
         known = state.known_ground
         if known is not None and known.any():
-            which = np.flatnonzero(known)
-            some = state.points.take(which)
-            lowest = Cells.over(some, self.cell).lowest_points(some)
-            state.seeds = np.append(state.seeds, which[lowest])
+            indices = np.flatnonzero(known)
+            ground = state.points.take(indices)
+            lowest = Cells.over(ground, self.cell).lowest_points(ground)
+            state.seeds = np.append(state.seeds, indices[lowest])
         if not len(state.seeds):
             raise BareEarthError(
                 f"{_NO_SEED} Check the maximum building size and the selection of points."
@@ -145,18 +145,18 @@ class Woods(PointRule):
         in_threads(find, state.grids)
 
 
-def share_around(which: np.ndarray, cells: Cells, width: float, default: float) -> np.ndarray:
+def share_around(counted: np.ndarray, cells: Cells, width: float, default: float) -> np.ndarray:
     """Return the share of some points in the square of `width` metres round each cell (rows,
     columns), or a default where there are none.
     """
     from scipy import ndimage
 
     side = max(2 * round(width / cells.size / 2.0 - 0.5) + 1, 1)
-    total, some = (
+    total, found = (
         ndimage.uniform_filter(grid.astype(np.float32), side, mode="constant")
-        for grid in (cells.counts, cells.counts_of(which))
+        for grid in (cells.counts, cells.counts_of(counted))
     )
-    return np.where(total > 0.0, some / np.maximum(total, 1e-6), default)
+    return np.where(total > 0.0, found / np.maximum(total, 1e-6), default)
 
 
 def openness(points: Points, cells: Cells, lowest: np.ndarray, rise: np.ndarray) -> np.ndarray:

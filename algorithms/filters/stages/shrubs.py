@@ -86,8 +86,8 @@ class Shrubs(PointRule):
         doubtful = doubtful[in_order(quarters.index[doubtful])]
         open_ = self.height + self.per_slope * width * slope[doubtful]
         limit = np.where(in_wood[doubtful], self.in_woods, open_)
-        which, first = np.unique(quarters.index[doubtful], return_index=True)
-        row, column = np.divmod(which, quarters.columns)
+        occupied, first = np.unique(quarters.index[doubtful], return_index=True)
+        row, column = np.divmod(occupied, quarters.columns)
         x, y = (
             (np.array(number) + start + 0.5) * quarters.size
             for number, start in ((column, quarters.first_column), (row, quarters.first_row))
@@ -97,10 +97,10 @@ class Shrubs(PointRule):
         ends, above = np.append(first, len(doubtful)), np.empty(len(doubtful))
 
         def judge(part: slice) -> None:
-            some, places = slice(ends[part.start], ends[part.stop]), middles.take(part)
-            starts = ends[part.start : part.stop] - some.start
+            group, places = slice(ends[part.start], ends[part.stop]), middles.take(part)
+            starts = ends[part.start : part.stop] - group.start
             inside = np.repeat(np.arange(places.count), np.diff(ends[part.start : part.stop + 1]))
-            x, y, z = (seed[doubtful[some]] - place[inside] for seed, place in zip(seeds, places))
+            x, y, z = (seed[doubtful[group]] - place[inside] for seed, place in zip(seeds, places))
 
             def rises(*planes: np.ndarray) -> np.ndarray:
                 rise, east, north, misfit = planes
@@ -109,12 +109,12 @@ class Shrubs(PointRule):
                 )
 
             def are_right(_: slice, *planes: np.ndarray) -> np.ndarray:
-                return np.logical_and.reduceat(rises(*planes) <= limit[some], starts)
+                return np.logical_and.reduceat(rises(*planes) <= limit[group], starts)
 
-            above[some] = np.fmin.reduce(rises(*sides.planes(places, enough=are_right)), axis=0)
+            above[group] = np.fmin.reduce(rises(*sides.planes(places, enough=are_right)), axis=0)
 
         # Planes of all seeds together would take more memory than all else.
-        over_parts(judge, len(which), _AT_ONCE, SILENT)
+        over_parts(judge, len(occupied), _AT_ONCE, SILENT)
         wrong[doubtful] = above > limit
         wrong[doubtful] &= in_wood[doubtful] | (above < self.tallest)
         return wrong

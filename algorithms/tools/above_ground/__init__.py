@@ -131,20 +131,19 @@ TOOL = PointTool(
     sets=(AboveGround, GroundClasses),
     inputs=(
         Input(
-            "area", "area", Area, "change only points in", more="; points outside keep their class"
+            "area",
+            "area",
+            Area,
+            "Only points in {area} change. Points outside keep their class. Empty: all points.",
         ),
     ),
     command="above-ground",
-    command_about="Classifies the points above the ground of a classified file, or of many as one"
-    " survey: low, medium and high vegetation (3, 4, 5) by height above ground, buildings (6),"
-    " bridges (17) and high noise (18). Only points of class 0 and 1 change.",
     identifier="classifyaboveground",
     title="Classify above ground",
-    summary="Finds vegetation, buildings and bridges in a point cloud whose ground is known.",
-    about="Classifies the points above the ground of a classified point cloud: low, medium and high"
-    " vegetation (3, 4, 5) by height above ground, buildings (6), bridges (17) and high noise"
-    " (18). Buildings are found by planes that laser pulses meet once; without return numbers"
-    " the planes alone decide, and smooth crowns can become buildings.\n"
+    about="The classes are low, medium and high vegetation (3, 4, 5) by height above ground,"
+    " buildings (6), bridges (17) and high noise (18). Buildings are found by planes that laser"
+    " pulses meet once; without return numbers the planes alone decide, and smooth crowns can"
+    " become buildings.\n"
     "Only points of class 0 and 1 change, unless you ask for more. Nothing else in the file"
     " changes. Lengths are metres, whatever the unit of the CRS.",
     page="above-ground",

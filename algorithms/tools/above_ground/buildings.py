@@ -122,9 +122,9 @@ class Buildings:
         """Return the nodes of roofs among high points, given as indices: their places and planes
         (n, 3), and the cells that they cover (rows, columns).
         """
-        some = points.take(high)
-        upside_down = Points(some.x, some.y, -some.z)
-        high = high[Cells.over(some, _NODE).lowest_points(upside_down)]
+        upright = points.take(high)
+        upside_down = Points(upright.x, upright.y, -upright.z)
+        high = high[Cells.over(upright, _NODE).lowest_points(upside_down)]
         places, cell = np.column_stack(points.take(high)), cells.index[high]
         through = _seen_through(points.z, high, cells)[cell]
         rise, plane, roof = self._faces(places, several[high], through, apart, progress)
@@ -211,7 +211,8 @@ def _seen_through(z: np.ndarray, high: np.ndarray, cells: Cells) -> np.ndarray:
     np.minimum.at(lowest, cell, z[high])
     under = z < np.where(holding.ravel(), lowest - _DEPTH, -np.inf)[cells.index]
     found, count = (
-        np.bincount(cells.index[which], minlength=holding.size) for which in (under, slice(None))
+        np.bincount(cells.index[selected], minlength=holding.size)
+        for selected in (under, slice(None))
     )
     inner = erosion(closing(holding, _CLOSING).view(np.uint8), 1.0).view(bool).ravel()
     return np.where(inner, found / np.maximum(count, 1), np.nan)
@@ -234,9 +235,9 @@ def _belong(
 
     places = np.column_stack([points.x, points.y])
     compared = np.arange(1, min(_COMPARED, len(nodes)) + 1)
-    distance, which = cKDTree(nodes[:, :2]).query(places, k=compared)
-    steps, rise = places[:, None] - nodes[which][:, :, :2], rise[which]
-    plane = nodes[which][:, :, 2] + rise[:, :, 2] + (steps * rise[:, :, :2]).sum(axis=2)
+    distance, nearest = cKDTree(nodes[:, :2]).query(places, k=compared)
+    steps, rise = places[:, None] - nodes[nearest][:, :, :2], rise[nearest]
+    plane = nodes[nearest][:, :, 2] + rise[:, :, 2] + (steps * rise[:, :, :2]).sum(axis=2)
     off = points.z[:, None] - plane
     beside = distance[:, 0] <= _BESIDE
     on = (np.abs(off).min(axis=1) <= _ON) & (beside | inside)
@@ -262,14 +263,14 @@ def planes_through(
     # lie on is fitted to these.
     rise = np.zeros((len(places), 3), dtype=np.float32)
     on = np.zeros(neighbours.shape, dtype=bool)
-    which, slope = np.flatnonzero(wanted), math.tan(math.radians(steepest))
+    asked, slope = np.flatnonzero(wanted), math.tan(math.radians(steepest))
 
     def fill(part: slice) -> None:
-        some = which[part]
-        steps = (places[neighbours[some]] - places[some][:, None]).astype(np.float32)
-        rise[some], on[some] = _planes(steps, near[some], tolerance, slope)
+        indices = asked[part]
+        steps = (places[neighbours[indices]] - places[indices][:, None]).astype(np.float32)
+        rise[indices], on[indices] = _planes(steps, near[indices], tolerance, slope)
 
-    over_parts(fill, len(which), _POINTS_A_PART, progress)
+    over_parts(fill, len(asked), _POINTS_A_PART, progress)
     return rise, on
 
 

@@ -20,7 +20,6 @@ from ...core.progress import SILENT, Progress
 from ...core.words import option
 from ...report.units import round_length
 from ...survey.area import Polygon
-from ...survey.feature_files import FORMATS as LAYERS
 from ...survey.feature_files import feature_writer
 from ...survey.files import Inputs
 from ...survey.vector_files import shapes_of
@@ -30,7 +29,6 @@ from .checkpoints import Checkpoints
 from .hold_out import HoldOut, hold_out
 from .land_covers import VVA
 from .page import checkpoint_html
-from .reading import FORMATS
 from .residuals import Residuals, layer_of, residuals_of, write_table
 from .results import COUNTED, LOW_CONFIDENCE, NOT_STATED, REASONS, Check, Expectation
 from .survey_ground import SurveyGround
@@ -209,27 +207,24 @@ TOOL = FileTool(
         Input(
             "checkpoints",
             "checkpoints",
-            help=f"points that were surveyed on the ground ({FORMATS})",
             label="Checkpoints",
             optional=True,
         ),
         Input(
             "dtm",
             "raster",
-            help="check this terrain model as well, in the CRS of the points",
+            help="The heights of this raster, in the CRS of the points, are compared with the"
+            " checkpoints as well.",
             label="Terrain model",
-            field_help="The heights of this raster are compared with the checkpoints as well.",
             optional=True,
         ),
         CRS,
         Input(
             "vegetated",
             "words",
-            help="land covers with one of these words are vegetated, and no others (default: words"
-            " such as forest, crops and brush in several languages)",
+            help="A land cover with one of these words is vegetated, and no other. Empty: words"
+            " such as forest, crops and brush in several languages.",
             label="Vegetated land covers",
-            field_help="Words separated by commas: a land cover with one of them is vegetated, and"
-            " no other. Empty: words such as forest, crops and brush in several languages.",
             optional=True,
             advanced=True,
             is_last=True,
@@ -237,11 +232,9 @@ TOOL = FileTool(
         Input(
             "expected_error",
             "raster",
-            help="the expected error of the terrain model, as the command terrain makes it; it is"
-            " told how many errors it holds",
+            help="The expected error of the terrain model, as `terrain()` makes it. It is told how"
+            " many errors at checkpoints it holds, and by which factor it would hold 95 %.",
             label="Expected error",
-            field_help="The expected error of the terrain model. It is told how many errors at"
-            " checkpoints it holds, and by which factor it would hold 95 %.",
             optional=True,
             advanced=True,
             is_last=True,
@@ -251,11 +244,9 @@ TOOL = FileTool(
             "polygons",
             # A delivery gives the file that it has written.
             of=partial(shapes_of, kind="Polygon", may_be_empty=True),
-            help="low confidence areas, as the command quality finds them: checkpoints in them have"
-            " figures of their own ({formats})",
+            help="Low confidence areas, as `quality()` finds them. Checkpoints in them have figures"
+            " of their own, and are not counted for the accuracy elsewhere.",
             label="Low confidence areas",
-            field_help="Low confidence areas, as *Quality of a survey* finds them. Checkpoints in"
-            " them have figures of their own, and are not counted for the accuracy elsewhere.",
             optional=True,
             advanced=True,
             is_last=True,
@@ -264,11 +255,9 @@ TOOL = FileTool(
         Input(
             "confidence",
             "raster",
-            help="the confidence of the terrain model, 0 to 1, as the command terrain makes it;"
-            " checkpoints where it is low are not counted",
+            help="The confidence of the terrain model, 0 to 1, as `terrain()` makes it. Checkpoints"
+            " where it is low are not counted.",
             label="Confidence",
-            field_help="Confidence of the terrain model, 0 to 1. Checkpoints where it is low are"
-            " not counted.",
             optional=True,
             advanced=True,
             is_last=True,
@@ -278,11 +267,8 @@ TOOL = FileTool(
         Output(
             "residuals",
             "features",
-            help=f"write the checkpoints and their errors as points ({', '.join(LAYERS)}); all but"
-            " .geojson need pyogrio",
+            help="The checkpoints with their errors (ERROR, in metres): ground minus checkpoint.",
             label="Errors at checkpoints",
-            field_help="The checkpoints with their errors (ERROR, in metres): ground minus"
-            " checkpoint.",
             named="OUTPUT",
             look="residuals",
             needs="checkpoints",
@@ -290,14 +276,13 @@ TOOL = FileTool(
         Output(
             "report",
             "page",
-            help="write a page (.html)",
+            help="A web page with the figures, the statement, and a map of the errors.",
             label="Report",
-            field_help="A web page with the figures, the statement, and a map of the errors.",
         ),
         Output(
             "table",
             "table",
-            help="write the checkpoints and their errors (.csv)",
+            help="A table of the checkpoints and their errors.",
             needs="checkpoints",
         ),
     ),
@@ -311,19 +296,15 @@ TOOL = FileTool(
     texts=(("VERDICT", "Verdict"),),
     json="the figures",
     command="check",
-    command_about="Compares the TIN of the ground points, and a terrain model, with checkpoints:"
-    " RMSE and other figures, on land with and without vegetation, and the statement of the ASPRS"
-    " Positional Accuracy Standards, edition 2. If points are held out, it needs none.",
     identifier="check",
     title="Check against checkpoints",
     section="Quality",
-    summary="Compares ground points and a terrain model with points surveyed on the ground.",
-    about="Compares the triangulation (TIN) of the ground points of a classified point cloud, and a"
-    " terrain model, with checkpoints: points that were surveyed on the ground. It gives the"
-    " figures and the statement of the ASPRS Positional Accuracy Standards, edition 2, on land"
-    " without vegetation (NVA) and with it (VVA). Nothing is shifted.\n"
-    "Without checkpoints, it can leave out a share of the ground points and measure how well"
-    " the others predict them.",
+    about="The height of the ground is that of the triangulation (TIN) of the ground points. The"
+    " figures, such as the RMSE, and the statement of the ASPRS Positional Accuracy Standards,"
+    " edition 2, are given for land without vegetation (NVA) and with it (VVA). Nothing is"
+    " shifted.\n"
+    "Without checkpoints, a share of the ground points can be left out, to measure how well the"
+    " others predict them.",
     page="check",
     words=(
         CLOUD,

@@ -70,12 +70,12 @@ def hold_out(
     kept = np.empty((4, 0))
     codes, count = np.empty(0, dtype=np.uint64), 0
     for cloud, is_ground in ground.parts(progress.part(0.0, 0.4)):
-        which = np.flatnonzero(is_ground)
-        points = cloud.points(which, ground.frame)
+        indices = np.flatnonzero(is_ground)
+        points = cloud.points(indices, ground.frame)
         code = _codes(points.x, points.y)
         chosen = np.flatnonzero(code < limit)
         count += len(chosen)
-        several = cloud.number_of_returns[which[chosen]] > 1
+        several = cloud.number_of_returns[indices[chosen]] > 1
         new = np.array([*(column[chosen] for column in points), several])
         kept, codes = np.concatenate((kept, new), axis=1), np.concatenate((codes, code[chosen]))
         # Sorted also by height, since points of one place have the same code.

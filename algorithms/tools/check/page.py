@@ -123,8 +123,8 @@ def _map(check: Check, found: Residuals, survey: Survey) -> Html:
     ):
         is_counted = state == COUNTED
         colour = _colour(error, check.scale) if is_counted else NOT_COUNTED
-        what = f"{error:+.3f} m" if is_counted else REASONS[state]
-        marks.append(Mark(x, y, colour, f"{name}: {what}"))
+        result = f"{error:+.3f} m" if is_counted else REASONS[state]
+        marks.append(Mark(x, y, colour, f"{name}: {result}"))
     boxes = np.array([tile.outer_box for tile in survey.tiles])
     unit = "m" if survey.crs.horizontal_unit == 1.0 else "units of the CRS"
     ends = [f"{value:+.3g}" for value in limits_of(check.scale)]

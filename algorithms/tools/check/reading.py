@@ -287,10 +287,10 @@ def _is_height(values: np.ndarray) -> np.ndarray:
     return np.isfinite(values) & (np.abs(values) < _LIMIT) & ~np.isin(values, _NODATA)
 
 
-def _differ(some: np.ndarray, others: np.ndarray) -> bool:
+def _differ(heights: np.ndarray, others: np.ndarray) -> bool:
     """Return whether two columns of heights hold different ones."""
     with np.errstate(invalid="ignore"):
-        return bool((np.abs(some - others) > _SAME).any())
+        return bool((np.abs(heights - others) > _SAME).any())
 
 
 def _word(value: Any) -> str:

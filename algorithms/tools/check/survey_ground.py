@@ -172,14 +172,16 @@ class _Nearest:
         if not points.count:
             return
         xy = np.column_stack((points.x, points.y))
-        distance, which = cKDTree(xy).query(
+        distance, nearest = cKDTree(xy).query(
             self.places, np.arange(1, min(self.count, points.count) + 1),
             distance_upper_bound=self._reach * (1.0 + 1e-12), workers=1,
         )  # fmt: skip
-        which = np.minimum(which, points.count - 1)  # a missing one has the number behind the last
+        nearest = np.minimum(
+            nearest, points.count - 1
+        )  # a missing one has the number behind the last
         new = np.array([
-            points.x[which] - self.places[:, :1], points.y[which] - self.places[:, 1:],
-            points.z[which],
+            points.x[nearest] - self.places[:, :1], points.y[nearest] - self.places[:, 1:],
+            points.z[nearest],
         ])  # fmt: skip
         distance = np.concatenate((self._distance, distance), axis=1)
         found = np.concatenate((self._points, new), axis=2)

@@ -129,8 +129,8 @@ def _control_points(table: Table) -> Table:
     """Return the points of a list of ground control points of ODM, each once."""
     # A row holds x, y, z, a place in an image, the image, and the name of the point, which may be
     # missing.
-    some = table.rows[0]
-    if len(some) < 6 or not _is_point(some[:5], 5) or not _IMAGE.fullmatch(some[5]):
+    first = table.rows[0]
+    if len(first) < 6 or not _is_point(first[:5], 5) or not _IMAGE.fullmatch(first[5]):
         return table
     lines: dict[tuple[str, ...], int] = {}
     for row, number in zip(table.rows, table.numbers):

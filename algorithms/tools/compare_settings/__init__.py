@@ -107,12 +107,9 @@ TOOL = FileTool(
         Input(
             "extent",
             "extent",
-            help="the window",
-            more="; without it, 250 x 250 m in the middle of the points",
+            help="The window to classify: at most 1,000 m wide, and quick up to about 250 x 250 m."
+            " Empty: 250 x 250 m in the middle of the points; the log says where.",
             label="Window",
-            field_help="The window to classify, such as the map's extent: at most 1,000 m wide, and"
-            " quick up to about 250 x 250 m. It is transformed to the CRS of the points. Empty: 250"
-            " x 250 m in the middle of the points; the log says where.",
             optional=True,
         ),
         CRS,
@@ -121,27 +118,22 @@ TOOL = FileTool(
         Output(
             "page",
             "page",
-            help="the page to write (.html)",
+            help="A web page that compares the settings.",
             label="Comparison of settings",
-            field_help="A web page, which the Results Viewer opens.",
             named="OUTPUT",
             is_main=True,
         ),
     ),
     json="the figures",
     command="compare-settings",
-    command_about="Classifies a window of one or many files with each of the settings, and writes a"
-    " page that shows their terrain and where they differ. No point cloud is written. A"
-    " setting is a method with a preset, such as slope:town.",
     identifier="comparesettings",
     title="Compare settings on a window",
     section="Quality",
-    summary="Tries methods and presets on a part of a point cloud, and shows them side by side.",
-    about="Classifies the points in a window with each of the settings, and makes a web page, which"
-    " opens from the Results Viewer. It shows the terrain of each setting, the share of"
-    " ground, where the settings differ, and how to run each of them on all points. No point cloud"
-    " is written. Of a COPC file only the window is read, which takes seconds; a LAS or LAZ file is"
-    " read as a whole.",
+    about="A setting is a method with a preset, such as slope:town. The points in a window are"
+    " classified with each setting, and a web page shows its terrain, the share of ground, where"
+    " the settings differ, and how to run each of them on all points. No point cloud is written."
+    " Of a COPC file only the window is read, which takes seconds; a LAS or LAZ file is read as a"
+    " whole.",
     page="which-method#compare-settings-on-a-window",
     words=(CLOUD, GROUND, TERRAIN, "preview,try,test,preset,parameters,compare"),
 )

@@ -11,6 +11,7 @@ from ...core.parameters import ParameterSet, parameter
 from ...filters import METHODS
 from ...filters.method import Method
 from ...survey.files import Inputs
+from ..ground.dialogs import METHOD_TOOLS
 from ..ground.method import TileMethod
 
 # Metres round the window that are read by default, at most.
@@ -49,7 +50,8 @@ class Setting(NamedTuple):
         sources, output = [str(path.absolute()) for path in paths], str(target.absolute())
         values: dict[str, Any]
         if is_one:
-            algorithm = f"bareearth:{self.method.toolbox.identifier}"
+            dialog = next(tool for tool in METHOD_TOOLS if tool.method == self.method.name)
+            algorithm = f"bareearth:{dialog.identifier}"
             values = {"INPUT": sources[0], "PRESET": self.preset, "OUTPUT": output}
         elif self.preset in _presets(TileMethod):
             algorithm, values = "bareearth:classifytiles", {

@@ -111,7 +111,7 @@ class Window:
         if failure:
             progress.warning(f"{setting.label}: {failure}")
         values = map(work.store.values, range(len(self.clouds)))
-        found = [step.applied(cloud, some) for cloud, some in zip(self.clouds, values)]
+        found = [step.applied(cloud, of_cloud) for cloud, of_cloud in zip(self.clouds, values)]
         classes = np.concatenate([cloud.classification for cloud in found])
         ground = classes == step.selection.to_class
         rmse = self._expected_rmse(ground, selected)

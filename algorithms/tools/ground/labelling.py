@@ -84,9 +84,9 @@ def labelled(
             found, decided = _labels(contents, core, label, visit.blocks.buffer, notes)
             labels = found if core.all() else found[core]
             if decided is not None:
-                some = contents.points.take(core)
+                points = contents.points.take(core)
                 decided = decided._replace(codes=decided.codes[core])
-                cells = ExplainedCells.of(some.x, some.y, decided, visit.corner)
+                cells = ExplainedCells.of(points.x, points.y, decided, visit.corner)
         except BareEarthError as error:
             notes.failure = error
     return positions, labels, notes, cells
@@ -170,13 +170,13 @@ def _labels(
     decided, failures, done = None, [], 0
     needed = np.flatnonzero(np.bincount(groups[wanted], minlength=count))
     for group in needed[np.argsort(-sizes[needed], kind="stable")].tolist():
-        which, end = np.flatnonzero(groups == group), done + int(sizes[group])
+        members, end = np.flatnonzero(groups == group), done + int(sizes[group])
         part = progress.part(done / len(groups), end / len(groups))
         try:
             # Messages are those of the largest group.
-            labels[which], found = label(contents.take(which), part.quiet() if done else part)
+            labels[members], found = label(contents.take(members), part.quiet() if done else part)
             if found is not None:
-                decided, codes[which] = found, found.codes
+                decided, codes[members] = found, found.codes
         except BareEarthError as error:
             failures.append(error)
         done = end
@@ -240,8 +240,8 @@ def thinned(contents: BlockPoints, box: Box) -> BlockPoints:
     for side in (y < south, y >= north, beside & (x < west), beside & (x >= east)):
         far = np.flatnonzero(side)
         if len(far):
-            some = contents.points.take(far)
-            stays[far[Cells.over(some, _CELL).lowest_points(some)]] = True
+            strip = contents.points.take(far)
+            stays[far[Cells.over(strip, _CELL).lowest_points(strip)]] = True
     stays |= contents.known
     return contents.take(stays)
 

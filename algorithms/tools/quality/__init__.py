@@ -13,7 +13,6 @@ from ...core.parameters import ParameterSet, parameter
 from ...core.points import Frame
 from ...core.progress import SILENT, Progress
 from ...las.cloud import survey_frame
-from ...survey.feature_files import FORMATS
 from ...survey.files import Inputs, Survey, open_survey
 from ...survey.repeated_points import RepeatedPoints
 from ..declaration import CLASSIFIED, CLOUD, CRS, TERRAIN, FileTool, Output
@@ -139,50 +138,39 @@ TOOL = FileTool(
         Output(
             "page",
             "page",
-            help="write a page (.html)",
+            help="A web page with all figures, and maps of them.",
             label="Page about the quality",
-            field_help="A web page, which the Results Viewer opens.",
             optional=False,
         ),
         Output(
             "folder",
             "folder",
-            help="write rasters (.tif) into this folder, which is made if need be: densities,"
-            " voids, low vegetation, overlap of strips, differences between strips, maximum surface"
-            " height",
+            help="The folder for rasters (.tif), which is made if need be: densities, voids, low"
+            " vegetation, overlap of strips, differences between strips, maximum surface height.",
             label="Folder of the rasters",
-            field_help="The folder for the rasters of densities, voids and strips, which are shown"
-            " as layers.",
             by_default=False,
             files=lambda folder, sets: {name: folder / f"{name}.tif" for name in QUALITY_RASTERS},
         ),
         Output(
             "low_confidence",
             "features",
-            help=f"the low confidence areas to write ({', '.join(FORMATS)}); all but .geojson need"
-            " pyogrio",
-            label="Low confidence areas",
-            field_help="Areas as polygons in which fewer points reach the ground than a quarter of"
+            help="Areas as polygons in which fewer points reach the ground than a quarter of"
             " the pulses, outside water and buildings, with their area, the density of ground"
             " points, and the share of cells with several returns.",
+            label="Low confidence areas",
             by_default=False,
             look="low confidence",
         ),
     ),
     json="the figures",
     command="quality",
-    command_about="Measures the quality of a classified survey: densities, voids, overlap of strips"
-    " and differences between them, classes and formats. Compares it with what a specification asks"
-    " for.",
     identifier="quality",
     title="Quality of a survey",
     section="Quality",
-    summary="Measures densities, voids and strips, and compares them with a specification.",
-    about="Measures a classified survey, of one file or many: densities of first returns and of"
-    " ground points, voids, low vegetation, overlap of flight strips and differences between them,"
-    " classes and file formats. It compares the figures with a specification, and makes a web page,"
-    " which opens from the Results Viewer, rasters, and polygons where too few points reach the"
-    " ground (low confidence areas).",
+    about="The figures of a classified survey, of one file or many, are densities of first returns"
+    " and of ground points, voids, low vegetation, overlap of flight strips and differences between"
+    " them, classes and file formats. A web page and rasters show them, and polygons show where too"
+    " few points reach the ground (low confidence areas).",
     page="quality",
     run_name="quality",
     words=(

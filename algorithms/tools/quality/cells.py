@@ -249,9 +249,9 @@ class QualityCells:
 
     def _add_strips(self, coarse: np.ndarray, strip: np.ndarray, heights: np.ndarray) -> None:
         """Add strips to the cells of their points, with their lowest points."""
-        pairs, which = np.unique(coarse << 16 | strip, return_inverse=True)
+        pairs, of_pair = np.unique(coarse << 16 | strip, return_inverse=True)
         lowest = np.full(len(pairs), np.inf)
-        np.minimum.at(lowest, which, heights)
+        np.minimum.at(lowest, of_pair, heights)
         cells, names = pairs >> 16, (pairs & 0xFFFF).astype(np.uint32) + 1
         for slot in range(STRIPS):
             strips, low = self.strip[slot].reshape(-1), self.strip_low[slot].reshape(-1)
@@ -329,8 +329,8 @@ class QualityCells:
             _mark(self.marks, coarse[of > 1], ROUGH)
             last = (number >= of) & ~np.isnan(above)
             reach = _NEAR + (np.abs(rise_x) + np.abs(rise_y)) * self.grids.coarse.size
-            some = (values[last] for values in (coarse, part.strip[used], z - reach, above))
-            self._sum_strips(*some)
+            columns = (values[last] for values in (coarse, part.strip[used], z - reach, above))
+            self._sum_strips(*columns)
 
     def _sum_strips(
         self, coarse: np.ndarray, strip: np.ndarray, bottom: np.ndarray, above: np.ndarray
@@ -437,10 +437,10 @@ def _real(part: PointCloud, is_made: np.ndarray) -> np.ndarray:
 
 def _add(place: np.ndarray, *sums: tuple[np.ndarray, np.ndarray | None]) -> None:
     """Add values, or 1 for None, to cells, of which some are given several times."""
-    which, back = np.unique(place, return_inverse=True)
+    places, back = np.unique(place, return_inverse=True)
     for cells, values in sums:
-        total = np.bincount(back, weights=values, minlength=len(which))
-        cells.reshape(-1)[which] += total.astype(cells.dtype)
+        total = np.bincount(back, weights=values, minlength=len(places))
+        cells.reshape(-1)[places] += total.astype(cells.dtype)
 
 
 def _mark(cells: np.ndarray, place: np.ndarray, bit: int) -> None:

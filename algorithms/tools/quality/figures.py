@@ -149,8 +149,10 @@ class Quality:
 
 
 # Values as text.
-_metres, _points = "{:.3f} m".format, "{:.2f} points/m2".format
-_pulses, _ground = "{:.2f} first returns/m2".format, "{:.2f} ground points/m2".format
+_metres = "{:.3f} m".format
+_points = "{:.2f} points/m2".format
+_pulses = "{:.2f} first returns/m2".format
+_ground = "{:.2f} ground points/m2".format
 
 
 def _share(value: float) -> str:

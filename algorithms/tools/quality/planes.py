@@ -31,8 +31,8 @@ def planes(
     # From the middle of all cells: numbers are so small that no digit of their squares is lost.
     (rows, columns), (x, y, z) = number.shape, totals
     north, east = (np.arange(rows) - rows // 2) * size, (np.arange(columns) - columns // 2) * size
-    some = np.nonzero(filled)
-    ground = tuple(sides[number[some] > 0] for sides in some)
+    occupied = np.nonzero(filled)
+    ground = tuple(sides[number[occupied] > 0] for sides in occupied)
     base = float((z[ground] / number[ground]).min()) if len(ground[0]) else 0.0
     cells, left = np.flatnonzero(wanted), wanted.copy()
     found = np.full((3, len(cells)), np.nan)

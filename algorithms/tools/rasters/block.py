@@ -88,9 +88,9 @@ class BlockView(NamedTuple):
         east, north = min(east, high_x + cell), min(north, high_y + cell)
         return CellWindow.with_centres_in((west, south, max(east, west), max(north, south)), cell)
 
-    def in_survey(self, some: Points) -> np.ndarray:
+    def in_survey(self, points: Points) -> np.ndarray:
         """Return points in the frame of the survey, shape (n, 3)."""
-        return np.add(np.column_stack(some), (*self.corner, 0.0))
+        return np.add(np.column_stack(points), (*self.corner, 0.0))
 
     def start(self, window: CellWindow, cell: float) -> tuple[float, float]:
         """Return the corner of a window in the frame of the points."""
@@ -130,7 +130,7 @@ class RasterStep:
                 loose[name] = points_at_gaps
         counts, boxes, extent = np.zeros(2, dtype=np.int64), [], np.full(4, np.nan)
         for points, ground, top, core in view.parts:
-            counts += [np.count_nonzero(which & core) for which in (ground, top)]
+            counts += [np.count_nonzero(flags & core) for flags in (ground, top)]
             if core.any():
                 low, high = (
                     [of(axis, where=core, initial=start) for axis in points[:2]]
@@ -167,8 +167,8 @@ def _contents(step: RasterStep, view: BlockView, window: CellWindow) -> np.ndarr
         is_south, is_west = (
             inside & (low < own) & (own % 2 > 0) for own, low in zip((row, column), before)
         )
-        for which, cells in ((is_south, quarters.columns), (is_west, 1)):
-            ground[index[which] - cells] = True
+        for on_border, cells in ((is_south, quarters.columns), (is_west, 1)):
+            ground[index[on_border] - cells] = True
         ground[index[is_south & is_west] - quarters.columns - 1] = True
 
     for points, are_ground, are_top, _ in view.parts:
@@ -216,13 +216,13 @@ def _surface(
     """Return the height of the highest point of each cell, but for points that hang in the air,
     such as birds; in empty cells, of their TIN.
     """
-    which, cell = view.top, step.cell
-    if which.any():
-        which = which & ~HighGroups().find(view.points)
-    points = view.points.take(which)
+    chosen, cell = view.top, step.cell
+    if chosen.any():
+        chosen = chosen & ~HighGroups().find(view.points)
+    points = view.points.take(chosen)
     if not points.count or window.is_empty:
         nothing = np.full(window.shape, np.nan, dtype=np.float32)
-        return {"surface": nothing}, view.in_survey(points.take(view.core[which]))
+        return {"surface": nothing}, view.in_survey(points.take(view.core[chosen]))
     margin = math.ceil(step.reach / cell)
     wide = window.wider(margin)
     top, row, column = _highest(points, wide, view.corner, cell, progress.part(0.0, 0.35))
@@ -244,7 +244,7 @@ def _surface(
     loose = np.zeros(points.count, dtype=bool)
     if step.max_edge is None:
         loose[top[surface.hull]] = True
-    loose &= view.core[which]
+    loose &= view.core[chosen]
     return {"surface": heights.astype(np.float32)}, view.in_survey(points.take(loose))
 
 
@@ -259,16 +259,16 @@ def _highest(
     # Points are processed in parts, since intermediate arrays take more memory than the points.
     size, top = window.rows * window.columns, np.zeros(0, dtype=np.intp)
 
-    def places(which: np.ndarray | slice) -> tuple[np.ndarray, np.ndarray]:
-        return window.places(points.x[which], points.y[which], corner, cell)
+    def places(indices: np.ndarray | slice) -> tuple[np.ndarray, np.ndarray]:
+        return window.places(points.x[indices], points.y[indices], corner, cell)
 
     for part in parts_of(points.count, max(size // 2, _POINTS_A_PART)):
         inside = np.flatnonzero(are_inside(*places(part), window.shape)) + part.start
         # The highest points so far, and the points of this part.
-        which = np.concatenate((top, inside))
-        row, column = places(which)
-        keys = -points.z[which], points.x[which], points.y[which]
-        top = which[first_of_each(row * window.columns + column, size, *keys)]
+        indices = np.concatenate((top, inside))
+        row, column = places(indices)
+        keys = -points.z[indices], points.x[indices], points.y[indices]
+        top = indices[first_of_each(row * window.columns + column, size, *keys)]
         progress(part.stop / points.count)
     return (top, *places(top))
 
@@ -299,7 +299,7 @@ def _errors(
     inside = [(places >= 0) & (places < count) for places, count in zip((row, column), cells.shape)]
     # Several small cells can lie in one of 1 m.
     (rows, of_rows), (columns, of_columns) = (
-        np.unique(places[some], return_inverse=True) for places, some in zip((row, column), inside)
+        np.unique(places[mask], return_inverse=True) for places, mask in zip((row, column), inside)
     )
     pieces = evidence(cells, view.points.z, view.ground, rows, columns)
     for name, values in found.items():

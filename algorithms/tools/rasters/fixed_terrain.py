@@ -58,8 +58,8 @@ class FixedTerrain:
         codes = squares(points.x + corner[0], points.y + corner[1], self.cell)
         stays = view.ground & ~np.isin(codes, self._cells)
 
-        def longer(which: np.ndarray, value: bool = False) -> np.ndarray:
-            return np.pad(which, (0, len(new)), constant_values=value)
+        def longer(flags: np.ndarray, value: bool = False) -> np.ndarray:
+            return np.pad(flags, (0, len(new)), constant_values=value)
 
         are_edges = longer(np.zeros(points.count, dtype=bool))
         are_edges[points.count : points.count + len(edges)] = True
@@ -289,8 +289,8 @@ def _ground_near(
         wanted = NearPlaces(places[:, 0], places[:, 1], NEAR)
         for cloud in clouds:
             is_ground = ground.of(cloud, GroundCounts())
-            which = np.flatnonzero(is_ground | ground.points_of(cloud, (IGNORED_GROUND,)))
-            near = which[wanted.of(*cloud.places(which, frame))]
+            candidates = np.flatnonzero(is_ground | ground.points_of(cloud, (IGNORED_GROUND,)))
+            near = candidates[wanted.of(*cloud.places(candidates, frame))]
             found.append(np.column_stack(cloud.points(near, frame)))
             are_ground.append(is_ground[near])
             if surface.water is not None:

@@ -49,7 +49,7 @@ def without_wrong_heights(
             f"{is_zero.sum():,} are 0": is_zero,
             f"{is_far.sum():,} lie more than {_FAR:g} m from it": is_far,
         }
-        said = ", ".join(reason for reason, which in reasons.items() if which.any())
+        said = ", ".join(reason for reason, mask in reasons.items() if mask.any())
         if np.isfinite(away).any() and np.nanmax(away):
             said += f", up to {np.nanmax(away):,.1f} m away"
         progress.warning(

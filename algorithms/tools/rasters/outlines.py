@@ -95,8 +95,8 @@ class CellContents:
                 for start, count in zip(shared[:2], shared.shape)
             )
             squares = np.ix_(rows - first[0], columns - first[1])
-            for number, which in zip(counts, (contents >= ANY, contents % ANY > 0)):
-                along = np.add.reduceat(which, at_rows, axis=0, dtype=np.int64)
+            for number, holding in zip(counts, (contents >= ANY, contents % ANY > 0)):
+                along = np.add.reduceat(holding, at_rows, axis=0, dtype=np.int64)
                 number[squares] += np.add.reduceat(along, at_columns, axis=1)
         area = window.rows * window.columns
         return _apart(counts[0], side, area), _apart(counts[1], side, area)

@@ -190,17 +190,19 @@ class MakeRasters(Drawing, Sink):
 
     def _thinned(self, part: PointCloud, shown: np.ndarray) -> np.ndarray:
         """Return one point of each cell of those that are shown."""
-        which = np.flatnonzero(shown)
-        if len(which):
-            x, y = part.places(which, survey_frame(part.crs, self.origin))
+        indices = np.flatnonzero(shown)
+        if len(indices):
+            x, y = part.places(indices, survey_frame(part.crs, self.origin))
             cells = CellWindow.around((x.min(), y.min(), x.max(), y.max()), self.of_block.cell)
             cells = cells.wider(1)
             row, column = cells.places(x, y, (0.0, 0.0), self.of_block.cell)
-            if cells.rows * cells.columns > _MOST_THINNED * len(which):
+            if cells.rows * cells.columns > _MOST_THINNED * len(indices):
                 return shown
-            which = which[first_of_each(row * cells.columns + column, cells.rows * cells.columns)]
+            indices = indices[
+                first_of_each(row * cells.columns + column, cells.rows * cells.columns)
+            ]
         kept = np.zeros_like(shown)
-        kept[which] = True
+        kept[indices] = True
         return kept
 
     def tell(self, counts: RasterCounts, path: Path, progress: Progress) -> None:

@@ -42,9 +42,9 @@ def follow_edges(
     row, column = np.nonzero(near)
     if not len(row):
         return
-    some = points.take(edges | NearPlaces(lines.x, lines.y, 2.0 * reach).of(points.x, points.y))
+    nearby = points.take(edges | NearPlaces(lines.x, lines.y, 2.0 * reach).of(points.x, points.y))
     x = (window.column + column + 0.5) * cell - corner[0]
     y = (window.row + row + 0.5) * cell - corner[1]
-    found = Tin(*some).interpolate(x, y)
+    found = Tin(*nearby).interpolate(x, y)
     known = ~np.isnan(found)
     heights[row[known], column[known]] = found[known]

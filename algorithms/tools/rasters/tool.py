@@ -12,9 +12,8 @@ from ...core.progress import Progress
 from ...engine.memory import Resources
 from ...engine.options import TileInput
 from ...rasters.cell_grid import ANYWHERE
-from ...survey.feature_files import FORMATS
 from ...survey.files import Inputs
-from ..contours import Contours
+from ..contours import CONTOUR_HELP, Contours
 from ..declaration import CANOPY, CLOUD, RASTER, TERRAIN, TIN, Input, MapTool, Output
 from ..water.tool import found_water
 from .constraints import NO_CONSTRAINTS, Constraints
@@ -30,16 +29,12 @@ def maps() -> tuple[Output, ...]:
     """Return the outputs of all runs that make rasters."""
     rasters = (
         Output(
-            name, "raster", f"GeoTIFF (.tif). {row.help}", label=row.label, field_help=row.help,
-            by_default=name in ("dtm", "hillshade"), advanced=name in _FOLDED,
+            name, "raster", row.help, label=row.label, by_default=name in ("dtm", "hillshade"),
+            advanced=name in _FOLDED,
         )
         for name, row in RASTERS.items()
     )  # fmt: skip
-    contours = (
-        f"contour lines of the terrain model ({', '.join(FORMATS)}); the field ELEV has the height,"
-        " INDEX is 1 for every fifth line. All but .geojson need pyogrio"
-    )
-    lines = Output("contours", "features", contours, drawn_by="contours", drawn_of="dtm")
+    lines = Output("contours", "features", CONTOUR_HELP, drawn_by="contours", drawn_of="dtm")
     return *rasters, lines
 
 
@@ -91,14 +86,8 @@ TARGET = Input("raster_target", "target", is_last=True)
 _AREA = Input(
     "area",
     "area",
-    help="make the rasters only in",
-    more="; points outside still help along its border",
-    area_help=(
-        "The rasters end at this rectangle. Points outside still help along its border. Empty: the"
-        " rasters cover all points.",
-        "The rasters have data only in these polygons; with an extent, only in both. Points outside"
-        " still help along the border. Empty: the rasters cover all points.",
-    ),
+    help="The rasters have data only in {area}. Points outside still help along the border. Empty:"
+    " the rasters cover all points.",
     advanced=True,
     is_last=True,
 )
@@ -114,17 +103,12 @@ TOOL = MapTool(
     steps=_steps,
     dialog_outputs=_in_dialog,
     command="terrain",
-    command_about="Makes rasters (GeoTIFF) of a classified file, or of many as one survey. Give at"
-    " least one output: contour lines, a terrain model, or another raster.",
-    function_about="Make rasters of the terrain and of what stands on it, and contour lines, of"
-    " classified points; all files together are one survey.",
     identifier="terrainmodel",
     title="Terrain, surface and canopy height models",
-    summary="Makes terrain model, surface model, canopy height and hillshade of a point cloud.",
-    about="Makes rasters (GeoTIFF) of a classified point cloud: the terrain, interpolated on the"
-    " triangulation (TIN) of the ground points; the surface, the highest point of each cell"
-    " without noise; canopy height, the difference of the two; and a hillshade of the terrain."
-    " All lie on the same grid. Heights are in the vertical unit of the CRS.",
+    about="The terrain is interpolated on the triangulation (TIN) of the ground points. The surface"
+    " is the highest point of each cell without noise, and canopy height is the difference of the"
+    " two. All rasters (GeoTIFF) lie on the same grid. Heights are in the vertical unit of the CRS."
+    " Only those that are asked for are made, and at least one is needed.",
     words=(CLOUD, TERRAIN, CANOPY, TIN, RASTER),
     page="terrain-model",
     run_name="terrain and surface",

@@ -17,7 +17,7 @@ from ...rasters.content import Source
 from ...rasters.geotiff import Raster, read_raster
 from ...report.units import Units
 from ...survey.area import Area, Polygon
-from ...survey.feature_files import FORMATS, Feature, Layer, feature_writer
+from ...survey.feature_files import Feature, Layer, feature_writer
 from ...survey.shapes import Place
 from ...survey.vector_files import CLASS_FIELD
 from ..declaration import RASTER, TERRAIN, FileTool, Input, Output
@@ -188,27 +188,22 @@ TOOL = FileTool(
         Input(
             "source",
             "raster",
-            help="the expected error of a terrain model, as the command terrain makes it",
+            help="The raster of the expected error of a terrain model, as `terrain()` makes it.",
             label="Expected error",
-            field_help="The raster of the expected error, as *Terrain, surface and canopy height"
-            " models* makes it.",
             named="INPUT",
         ),
         Input(
             "dtm",
             "raster",
-            help="the terrain model of the same run: for heights, pictures and profiles",
+            help="The terrain model of the same run: for heights, pictures and profiles.",
             label="Terrain model",
-            field_help="The terrain model of the same run: for heights, pictures and profiles.",
             optional=True,
         ),
         Input(
             "cause",
             "raster",
-            help="the cause of the expected error, of the same run: for the reason of each place",
+            help="The cause of the expected error, of the same run: for the reason of each place.",
             label="Cause of the expected error",
-            field_help="The cause of the expected error, of the same run: for the reason of each"
-            " place.",
             optional=True,
         ),
         Input("corrections", "corrections", label="Corrections", is_last=True),
@@ -217,10 +212,9 @@ TOOL = FileTool(
         Output(
             "places",
             "features",
-            help=f"the places to write ({', '.join(FORMATS)}); all but .geojson need pyogrio",
-            label="Places to review",
-            field_help="The places as polygons, with rank, reason, largest expected error, area and"
+            help="The places as polygons, with rank, reason, largest expected error, area and"
             " heights, and the attribute class to fill in.",
+            label="Places to review",
             named="OUTPUT",
             is_main=True,
             look="places",
@@ -228,25 +222,19 @@ TOOL = FileTool(
         Output(
             "page",
             "page",
-            help="a page (.html) with the ten places to look at first",
+            help="A page with the ten places to look at first, their relief and a profile.",
             label="Page",
-            field_help="A page with the ten places to look at first, their relief and a profile.",
             named="REPORT",
         ),
     ),
     command="review",
-    command_about="Finds the places of a terrain model that a person should look at first: where"
-    " the expected error is large, those with the largest product of error and area first, with"
-    " the reason. Fill in their attribute 'class', and give them to classify as corrections; places"
-    " that corrections answer are left out.",
     identifier="review",
     title="Places to review",
     section="Quality",
-    summary="Finds where a terrain model may be wrong: what to look at first, and why.",
-    about="Finds the places of a terrain model that a person should look at first: where the"
-    " expected error is large, those with the largest product of error and area first, with the"
-    " reason. Step through them with the attribute form, fill in the attribute *class* (2 is"
-    " ground, 1 is not), and give the layer to *Classify ground points* as corrections.",
+    about="The places are where the expected error is large, those with the largest product of"
+    " error and area first, with the reason. Fill in their attribute 'class' (2 is ground, 1 is"
+    " not), and give them to `classify()` as corrections. Places that corrections answer are left"
+    " out.",
     page="check#places-to-review",
     words=(RASTER, TERRAIN, "review,error,uncertainty,confidence,quality"),
     run_name="places to review",

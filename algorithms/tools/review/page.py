@@ -22,13 +22,15 @@ from ...report.pictures import Picture, rgb
 from ...report.units import Units, percent
 from .places import PlaceToReview, Rasters
 
-# Places with pictures, and the metres round a place that these show.
-_SHOWN, _AROUND = 10, 15.0
+_SHOWN = 10  # places with pictures
+_AROUND = 15.0  # metres round a place that these show
 _STYLE = """
 .place { max-width: 420px; }
 td { overflow-wrap: normal; }
 """
-_PLACE, _TERRAIN = "#d4523f", "#6e4824"
+# Colours.
+_PLACE = "#d4523f"
+_TERRAIN = "#6e4824"
 
 
 def review_html(

@@ -182,7 +182,7 @@ def _percentiles(
     names, starts = np.unique(station[order], return_index=True)
     found = np.full(count, np.nan)
     parts = np.split(heights[order], starts[1:])
-    found[names] = [np.percentile(some, percentile) for some in parts]
+    found[names] = [np.percentile(part, percentile) for part in parts]
     return found
 
 
@@ -195,10 +195,10 @@ def _medians_near(network: Network, values: np.ndarray, steps: int) -> np.ndarra
         near = near @ beside + near
     result = np.full(network.size, float(np.nanmedian(values)))
     for number, (first, last) in enumerate(zip(near.indptr[:-1], near.indptr[1:])):
-        some = values[near.indices[first:last]]
-        some = some[~np.isnan(some)]
-        if len(some):
-            result[number] = np.median(some)
+        nearby = values[near.indices[first:last]]
+        nearby = nearby[~np.isnan(nearby)]
+        if len(nearby):
+            result[number] = np.median(nearby)
     return result
 
 
@@ -259,12 +259,12 @@ def joined(lines: Sequence[np.ndarray], border: np.ndarray) -> tuple[np.ndarray,
         edges.append(np.column_stack((own[:-1], own[1:])))
         others = np.setdiff1d(name, own)
         if len(others):
-            far, which = cKDTree(stations[others]).query(stations[own[[0, -1]]])
-            half = banks.query(stations[others[which]])[0]
+            far, nearest = cKDTree(stations[others]).query(stations[own[[0, -1]]])
+            half = banks.query(stations[others[nearest]])[0]
             near = far <= _WIDER * half + _JOINED
             # The head of a short branch is near another line, too.
             near &= far <= np.hypot(*(line[-1] - line[0])) / 2.0
-            edges.append(np.column_stack((own[[0, -1]], others[which]))[near])
+            edges.append(np.column_stack((own[[0, -1]], others[nearest]))[near])
     pairs = np.sort(np.concatenate(edges), axis=1)
     pairs = np.unique(pairs[pairs[:, 0] != pairs[:, 1]], axis=0)
     return stations, Network(len(stations), pairs)

@@ -91,11 +91,11 @@ class WaterGrid:
         # An extent in a header can be a little too small.
         inside = are_inside(row, column, self.shape)
         cells = np.where(inside, row * self.shape[1] + column, -1)
-        for counts, which in ((self.counts.ravel(), last), (self.water.ravel(), last & water)):
-            places, some = np.unique(cells[which & inside], return_counts=True)
-            counts[places] = np.minimum(counts[places] + some, _MOST_COUNT)
-        for heights, which in ((self.lowest.ravel(), last), (self.ground.ravel(), ground)):
-            lower_at(heights, cells[which & inside], points.z[which & inside].astype(np.float32))
+        for counts, mask in ((self.counts.ravel(), last), (self.water.ravel(), last & water)):
+            places, more = np.unique(cells[mask & inside], return_counts=True)
+            counts[places] = np.minimum(counts[places] + more, _MOST_COUNT)
+        for heights, mask in ((self.lowest.ravel(), last), (self.ground.ravel(), ground)):
+            lower_at(heights, cells[mask & inside], points.z[mask & inside].astype(np.float32))
         self.decks.ravel()[cells[decks & inside]] = True
 
     def class_in(self, window: Window = (slice(None), slice(None))) -> np.ndarray:

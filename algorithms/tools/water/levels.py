@@ -166,17 +166,17 @@ def _segments(
     return places, heights[starts], heights[starts + counts // 2]
 
 
-def _beyond(which: np.ndarray, ground: np.ndarray, places: np.ndarray, side: int) -> np.ndarray:
+def _beyond(among: np.ndarray, ground: np.ndarray, places: np.ndarray, side: int) -> np.ndarray:
     """Return the lowest ground of the nearest cells among some; NaN where none is near."""
     from scipy.spatial import cKDTree
 
-    cells = np.argwhere(which)
+    cells = np.argwhere(among)
     if not len(cells):
         return np.full(len(places), np.nan)
     nearest = np.arange(1, min(_ROWS * side, len(cells)) + 1)
     _, near = cKDTree(cells).query(places, nearest, distance_upper_bound=side + _BEYOND)
     # A missing one has the number behind the last.
-    lowest = np.append(ground[which], np.inf)[near].min(axis=1)
+    lowest = np.append(ground[among], np.inf)[near].min(axis=1)
     return np.where(np.isfinite(lowest), lowest, np.nan)
 
 
@@ -333,8 +333,8 @@ def _steps(levels: np.ndarray, chain: np.ndarray) -> list[_Step]:
 
 def _slope(heights: np.ndarray) -> float:
     """Return how far the level changes beside a step at most, for each reach."""
-    some = np.abs(heights[1 : _BESIDE + 1] - heights[0])
-    return float((some / np.arange(1, len(some) + 1)).max())
+    changes = np.abs(heights[1 : _BESIDE + 1] - heights[0])
+    return float((changes / np.arange(1, len(changes) + 1)).max())
 
 
 def _gap(water: np.ndarray, reaches: Reaches, step: _Step, ground: np.ndarray) -> np.ndarray:

@@ -53,21 +53,24 @@ class Reaches(NamedTuple):
         edges = edges[np.argsort(edges[:, 0], kind="stable")]
         starts = np.searchsorted(edges[:, 0], np.arange(self.network.size + 1))
         for turn in range(int(np.diff(starts).max(initial=0))):
-            which = np.flatnonzero(starts[reach] + turn < starts[reach + 1])
-            start = reach[which]
+            indices = np.flatnonzero(starts[reach] + turn < starts[reach + 1])
+            start = reach[indices]
             end = edges[starts[start] + turn, 1]
             # On the line between the middles of both reaches. Where branches meet, a reach belongs
             # to all of them, so that the distance from one end of the water does not say enough.
-            line, place = self.places[end] - self.places[start], places[which] - self.places[start]
+            line, place = (
+                self.places[end] - self.places[start],
+                places[indices] - self.places[start],
+            )
             squared = np.maximum((line**2).sum(axis=1), 1e-9)
             share = np.clip((line * place).sum(axis=1) / squared, 0.0, 1.0)
             far = np.hypot(*(place - share[:, None] * line).T)
             length = self.middles[end] - self.middles[start]
-            share += np.clip(off[which] / np.where(length == 0, np.inf, length), 0.0, 1.0)
-            closer = far < nearest[which]
-            which, start, end, share = which[closer], start[closer], end[closer], share[closer]
-            nearest[which] = far[closer]
-            found[which] = values[start] + (values[end] - values[start]) * share / 2.0
+            share += np.clip(off[indices] / np.where(length == 0, np.inf, length), 0.0, 1.0)
+            closer = far < nearest[indices]
+            indices, start, end, share = indices[closer], start[closer], end[closer], share[closer]
+            nearest[indices] = far[closer]
+            found[indices] = values[start] + (values[end] - values[start]) * share / 2.0
         return found
 
 

@@ -16,7 +16,7 @@ from ...crs.system import Crs
 from ...grids.lines import along
 from ...las.cloud import PointCloud, survey_frame
 from ...survey.area import Polygon
-from ...survey.feature_files import FORMATS, Feature, Layer, feature_writer
+from ...survey.feature_files import Feature, Layer, feature_writer
 from ...survey.files import Inputs
 from ..check.survey_ground import SurveyGround
 from ..declaration import CLASSIFIED, CLOUD, CRS, FileTool, Output
@@ -166,8 +166,8 @@ def water_of(
             used & (cloud.classification == value) for value in (_WATER_CLASS, _DECK_CLASS)
         )
         marks = np.array((ground, water, last, decks))
-        which = np.flatnonzero(marks.any(axis=0))
-        grid.add(cloud.points(which, survey.frame), *marks[:, which])
+        marked = np.flatnonzero(marks.any(axis=0))
+        grid.add(cloud.points(marked, survey.frame), *marks[:, marked])
     survey.check()
     bodies = find_water(grid, how, progress.part(0.9, 1.0))
     outlines = tuple(tuple(ring[:, :2] for ring in body.rings) for body in bodies)
@@ -249,7 +249,6 @@ def _write(
     return summary
 
 
-_KINDS = f"({', '.join(FORMATS)}); all but .geojson need pyogrio"
 TOOL = FileTool(
     work=_write,
     sets=(Water, GroundClasses),
@@ -258,19 +257,17 @@ TOOL = FileTool(
         Output(
             "output",
             "features",
-            help=f"the polygons of water to write {_KINDS}",
+            help="Polygons of water with the level (LEVEL), the spread of the shore in metres"
+            " (SPREAD) and a grade of certainty (GRADE).",
             label="Water",
-            field_help="Polygons with the level (LEVEL), the spread of the shore in metres (SPREAD)"
-            " and a grade of certainty (GRADE).",
             is_main=True,
             look="water",
         ),
         Output(
             "breaklines",
             "features",
-            help=f"write shores, islands and the middles of rivers as lines with heights {_KINDS}",
+            help="Shores, islands and the middles of rivers as lines with heights.",
             label="Breaklines",
-            field_help="Shores, islands and the middles of rivers as lines with heights.",
             flag="breaklines-out",
             by_default=False,
             look="breaklines",
@@ -278,16 +275,12 @@ TOOL = FileTool(
     ),
     always_tells=True,
     command="water",
-    command_about="Finds water where hardly any last return is, and the ground along its shore is"
-    " level or falls steadily: polygons with level, spread of the shore and a grade of certainty,"
-    " and breaklines with heights.",
     identifier="water",
     title="Find water",
-    summary="Finds lakes and rivers as polygons with their levels, and as breaklines.",
-    about="Finds water in a classified point cloud: where hardly any last return is, and the ground"
-    " along the shore is level or falls steadily, or where points have class 9. Gaps between"
-    " strips, roofs and woods are told from it. Each polygon has the level, the spread of the"
-    " shore, and a grade of certainty. The terrain model takes the polygons as water.",
+    about="Water is where hardly any last return is, and the ground along the shore is level or"
+    " falls steadily, or where points have class 9. Gaps between strips, roofs and woods are told"
+    " from it. Each polygon has the level, the spread of the shore, and a grade of certainty."
+    " `terrain()` takes the polygons as water.",
     page="water",
     words=(CLOUD, "lake,river,pond,shore,shoreline,hydro-flattening,hydroflatten,breaklines"),
     numbers=(("LAKES", "Lakes"), ("RIVERS", "Parts of rivers"), ("AREA", "Area [m²]")),
