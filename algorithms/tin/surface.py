@@ -19,9 +19,10 @@ from .triangulation import Tin, hull_corners, is_one_line, lowest_of_duplicates,
 _VERTICES_A_BLOCK = 6_000
 # Width of the margin that is triangulated with a block, as a share of the block's longer side.
 _MARGIN = 0.03
-# Most triangulations of the vertices round the queries that blocks leave. A few are enough, unless
-# rounding makes the search endless.
-_MOST_STEPS = 1000
+# Most triangulations of the vertices round the queries that blocks leave, and of those after which
+# vertices that were added for others go again. A few are enough, unless rounding makes the search
+# endless.
+_MOST_STEPS, _FIRST_STEPS = 1000, 10
 # Rounding error in metres of a query on the hull.
 _ON_HULL = 1e-6
 # Rounding: a vertex counts as on a circle if its power, squared metres, is less than this share of
@@ -212,7 +213,7 @@ class Surface:
         # a lake has many more cells than vertices on its shore.
         heights, active = np.full(len(x), np.nan), np.arange(len(x))
         used, hull = np.union1d(vertices, self._hull[2]), self._hull[2]
-        for _ in range(_MOST_STEPS):
+        for step in range(_MOST_STEPS):
             tin, places = Tin(*self._vertices.take(used)), (x[active], y[active])
             triangle = _located(tin, *places, cells)
             heights[active] = tin.interpolate(*places, _without_long(tin, triangle, max_edge))
@@ -225,8 +226,10 @@ class Surface:
                 break
             corners = used[tin.source[np.unique(tin.triangles[triangle[is_new]])]]
             # Each new vertex lowers the paraboloid over its queries, so that this ends without the
-            # vertices that were added for others.
-            used = np.unique(np.concatenate((corners, hull, in_circle[is_new])))
+            # vertices that were added for others; but a query on an edge can go to and fro between
+            # the triangles beside it.
+            stay = corners if step < _FIRST_STEPS else used
+            used = np.unique(np.concatenate((stay, hull, in_circle[is_new])))
         return heights
 
     def _depth(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:

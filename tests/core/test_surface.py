@@ -92,6 +92,24 @@ def test_a_lake_costs_as_its_shore_and_not_as_its_cells(small_blocks, monkeypatc
     assert sum(asked) < len(at_x) / 10
 
 
+@pytest.mark.parametrize("seed", [5, 10])
+def test_queries_on_the_straight_shore_of_a_lake_do_not_search_without_end(
+    small_blocks, monkeypatch, seed
+):
+    """Such a query lies on an edge, and each of both triangles may ask for another vertex."""
+    tins = []
+    monkeypatch.setattr(module, "Tin", lambda *points: tins.append(Tin(*points)) or tins[-1])
+    x, y = np.round(_scatter(1500, seed)[:2], 3)
+    dry = (np.abs(x - 50.0) > 30.0) | (np.abs(y - 50.0) > 30.0)
+    along, low = np.arange(20.5, 80.0), np.full(60, 20.0)
+    x = np.concatenate((x[dry], along, along, low, low + 60.0))
+    y = np.concatenate((y[dry], low, low + 60.0, along, along))
+    at_x, at_y = (axis.ravel() for axis in np.meshgrid(*(np.arange(15.0, 86.0),) * 2))
+    heights = Surface(Points(x, y, 3.0 + 0.2 * x - 0.1 * y)).heights(at_x, at_y)
+    assert np.allclose(heights, 3.0 + 0.2 * at_x - 0.1 * at_y, atol=1e-6)
+    assert len(tins) < 60
+
+
 def test_a_plane_on_a_regular_grid_is_exact_to_its_border(small_blocks):
     x, y = (axis.ravel() for axis in np.meshgrid(np.arange(60.0), np.arange(50.0)))
     surface = Surface(Points(x, y, 3.0 + 0.2 * x - 0.1 * y))
