@@ -72,10 +72,10 @@ def test_rasters_are_lazy_and_equal_to_those_of_the_survey(survey, small_blocks,
     rasterio = pytest.importorskip("rasterio")
     xarray, dask = pytest.importorskip("xarray"), pytest.importorskip("dask")
     paths = {name: str(tmp_path / f"{name}.tif") for name in RASTERS}
-    how = dict(crs="EPSG:25832", raster_nodata=None, max_edge=5.0)
-    bare_earth.terrain(survey / "done", **how, **paths)
+    how = dict(max_edge=5.0, dtm_cell_size=2.0)
+    bare_earth.terrain(survey / "done", crs="EPSG:25832", raster_nodata=None, **how, **paths)
     blocks = arrays.blocks(survey / "raw", crs="EPSG:25832", **NEAR)
-    rasters = arrays.terrain(blocks, rasters=RASTERS, max_edge=5.0)
+    rasters = arrays.terrain(blocks, rasters=RASTERS, **how)
     lazy = [raster.to_xarray() for raster in rasters.values()]
     assert all(isinstance(one, xarray.DataArray) for one in lazy)
     assert all(one.data.npartitions >= 6 for one in lazy)
@@ -87,8 +87,8 @@ def test_rasters_are_lazy_and_equal_to_those_of_the_survey(survey, small_blocks,
             assert tuple(rasters[name].transform) == tuple(file.transform)
             assert rasters[name].shows == file.descriptions[0]
     part = (ORIGIN[0] + 90, ORIGIN[1] + 20, ORIGIN[0] + 250, ORIGIN[1] + 70)
-    piece = arrays.terrain(blocks, extent=part, max_edge=5.0)["dtm"]
-    assert piece.values.shape == (50, 160)
+    piece = arrays.terrain(blocks, extent=part, **how)["dtm"]
+    assert piece.values.shape == (25, 80)
     west, south, east, north = part
     same = rasters["dtm"].to_xarray().sel(x=slice(west, east), y=slice(north, south))
     assert np.array_equal(*dask.compute(piece.values, same.data), equal_nan=True)

@@ -82,17 +82,17 @@ def tin(x, y, z, classes):
 
 
 def test_heights_are_those_of_an_independent_triangulation(survey):
-    xy = places(300)
+    xy = places(80)
     independent = tin(*cloud())(xy)
     given = Checkpoints.of(np.column_stack((xy + CORNER, independent)))
     done = check([survey], given)
-    assert done.counted == 300
+    assert done.counted == 80
     assert max(abs(done.nva.minimum), abs(done.nva.maximum)) < 0.001
 
 
 @pytest.mark.parametrize("rounds", quick([(32, 64), (32,), (8_000,)], (32, 64)))
 def test_with_few_points_at_first_others_are_looked_at_again(survey, monkeypatch, rounds):
-    xy = places(200)
+    xy = places(40)
     heights = tin(*cloud())(xy)
     monkeypatch.setattr(survey_ground, "_ROUNDS", rounds)
     ground = survey_ground.SurveyGround.of([survey], GroundClasses())
