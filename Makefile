@@ -16,7 +16,7 @@ test-core:  ## test the classifier, without QGIS
 test-long:  ## run the tests that test-core leaves out, for they take long
 	@tools/test long
 
-test-systems:  ## test what touches files once more as on Windows, and all in Python 3.9 if there is one
+test-systems:  ## test what touches files once more as on Windows, and in Python 3.9, if there is one, what can differ
 	@tools/test windows oldest
 
 lint:  ## check the style, the types, and what plugins.qgis.org checks

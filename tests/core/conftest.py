@@ -33,6 +33,12 @@ FORMATS = {0: (0, 1), 1: (0, 1), 2: range(4), 3: range(6), 4: range(11)}
 EVERY = [(version, point_format) for version, kinds in FORMATS.items() for point_format in kinds]
 # These begin first; and these share the code that they parse.
 SLOWEST = ("test_goldens.py", "test_deliveries.py", "test_tiles.py", "test_tutorials.py")
+# What these find out does not depend on the Python that runs them, nor do the scenes of benchmarks.
+SAME_IN_ANY_PYTHON = {
+    "test_coming_from.py", "test_demo.py", "test_docstrings.py", "test_goldens.py",
+    "test_notebooks.py", "test_packaging.py", "test_pages.py", "test_presets.py",
+    "test_translations.py", "test_tutorials.py",
+}  # fmt: skip
 READ_THE_CODE = ("test_docstrings.py", "test_security.py", "test_walls.py", "test_windows.py")
 GPS_TIMES = {1: 20, 3: 20, 4: 20, 5: 20, 6: 22, 7: 22, 8: 22, 9: 22, 10: 22}
 SCALE, OFFSET = (0.01, 0.01, 0.001), (400_000.0, 5_000_000.0, 100.0)
@@ -214,7 +220,12 @@ class LasKit:
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_runtest_setup(item):
-    """Leave long tests out, and tell of it, unless `-m` asks for them."""
+    """Leave long tests out, and tell of it, unless `-m` asks for them; in Python 3.9 also those
+    that newer ones run.
+    """
+    if sys.version_info < (3, 10):
+        if item.path.name in SAME_IN_ANY_PYTHON or item.path.parent != Path(__file__).parent:
+            pytest.skip("not in Python 3.9: it is the same in any Python")
     if item.get_closest_marker("long") and "long" not in item.config.option.markexpr:
         pytest.skip("long: `make test-long` runs it")
 
