@@ -41,7 +41,7 @@ COMMANDS = {
     " --overlap leave-out --bridges keep",
     "classify/key-points": "classify raw.laz OUT/a.copc.laz --only-key-points --remember-classes",
     "classify/area": f"classify raw.laz OUT/a.laz --boundary boundary.geojson --extent 569970"
-    f" 5931970 570020 5932030 --dtm OUT/dtm.tif --corrections corrections.geojson {_KNOWN}",
+    f" 5932470 570020 5932530 --dtm OUT/dtm.tif --corrections corrections.geojson {_KNOWN}",
     "classify/area-only": "classify raw.laz OUT/a.laz --boundary boundary.geojson --area-only"
     " --ground-only --method slope",
     "classify/old": "classify old.las OUT/a.laz --crs EPSG:25832 --from-classes all --json",
@@ -77,8 +77,8 @@ COMMANDS = {
     "terrain/feet": "terrain old.las --dtm OUT/dtm.tif --contours OUT/lines.geojson --crs EPSG:2230"
     " --dtm-cell-size 5 --dtm-cell-unit crs --json",
     "terrain/like": "terrain truth.laz --dtm OUT/dtm.tif --like terrain/known/dtm.tif",
-    "terrain/extent": "terrain truth.laz --dtm OUT/dtm.tif --raster-extent 569980.5 5931970.2"
-    " 570020 5932003",
+    "terrain/extent": "terrain truth.laz --dtm OUT/dtm.tif --raster-extent 569980.5 5932470.2"
+    " 570020 5932503",
     # From one raster to another.
     "contours": "contours terrain/file/dtm.tif OUT/lines.geojson --interval 0.5 --json",
     "off-terrain": "remove-off-terrain-objects terrain/file/dsm.tif OUT/dtm.tif --json",
@@ -108,8 +108,8 @@ COMMANDS = {
     " --shore-distance 1",
     # Parts.
     "clear-cache": "clear-cache --cache OUT/none",
-    "fetch/area": "fetch classify/key-points/a.copc.laz OUT/a.copc.laz --extent 569970 5931970"
-    " 570030 5932030 --boundary boundary.geojson --json",
+    "fetch/area": "fetch classify/key-points/a.copc.laz OUT/a.copc.laz --extent 569970 5932470"
+    " 570030 5932530 --boundary boundary.geojson --json",
     # Figures.
     "check/file": f"check truth.laz {_CHECKPOINTS} --dtm terrain/file/dtm.tif --confidence"
     " terrain/file/confidence.tif --report OUT/page.html --table OUT/points.csv --residuals"
@@ -123,7 +123,7 @@ COMMANDS = {
     "quality/survey": "quality truth --specification linz --page OUT/page.html",
     "assess": "assess classify/tin/a.laz truth.laz --report OUT/page.html --error-map OUT/map.tif"
     " --json",
-    "compare-settings": "compare-settings raw OUT/page.html --extent 569970 5931970 570030 5932030"
+    "compare-settings": "compare-settings raw OUT/page.html --extent 569970 5932470 570030 5932530"
     " --settings grid-minimum:automatic slope:town --json",
     "info/file": "info truth.laz",
     "info/old": "info old.las --json",

@@ -37,7 +37,7 @@ RUNS: dict[str, tuple[str, dict[str, Any]]] = {
         "OUTPUT": "OUT/a.laz", "DTM": "OUT/dtm.tif", "EXPLANATION": "OUT/rules.tif",
     }),
     "slope": ("slopefilter", {
-        "INPUT": "raw.laz", "EXTENT": "569970,570020,5931970,5932030 [EPSG:25832]",
+        "INPUT": "raw.laz", "EXTENT": "569970,570020,5932470,5932530 [EPSG:25832]",
         "CORRECTIONS": "corrections.geojson", "CORRECTIONS_FIELD": "class", **_KNOWN,
         "OUTPUT": "OUT/a.laz", "DTM": "OUT/dtm.tif", "HILLSHADE": "OUT/shade.tif",
         "LOOKS": "5", "EXPECTED_ERROR": "OUT/error.tif",
@@ -47,7 +47,7 @@ RUNS: dict[str, tuple[str, dict[str, Any]]] = {
         "OUTPUT": "OUT/a.copc.laz",
     }),
     "fetch": ("fetch", {
-        "ADDRESS": "grid-minimum/a.copc.laz", "EXTENT": "569970,570020,5931970,5932030",
+        "ADDRESS": "grid-minimum/a.copc.laz", "EXTENT": "569970,570020,5932470,5932530",
         "OUTPUT": "OUT/part.laz",
     }),
     "tiles": ("classifytiles", {

@@ -9,7 +9,7 @@ import bare_earth as bare
 
 _RAW, _TRUTH, _TILES = Path("raw.laz"), Path("truth.laz"), Path("truth")
 _DTM = Path("terrain/file/dtm.tif")
-_WINDOW = (569970.0, 5931970.0, 570030.0, 5932030.0)
+_WINDOW = (569970.0, 5932470.0, 570030.0, 5932530.0)
 
 FUNCTIONS: dict[str, Callable[[Path], Any]] = {
     "classify": lambda out: bare.classify(
