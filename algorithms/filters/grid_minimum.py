@@ -17,7 +17,7 @@ from ..core.parameters import ParameterSet, parameter
 from ..core.points import Points
 from ..core.progress import Progress
 from ..grids.cells import Cells
-from .method import TERRAINS, Method, of_preset
+from .method import TERRAINS, Method, as_given, of_preset
 from .pipeline import Pipeline
 from .stages import shared_pipeline
 from .stages.accept import NearSurface
@@ -49,6 +49,7 @@ _LEAST_REACH = 100.0
 
 # The preset with the rules of the paper.
 CLASSIC = "paper"
+_PAPER_TOLERANCE = 0.4  # metres above the surface of the ground in level terrain
 
 
 class Preset(NamedTuple):
@@ -73,7 +74,7 @@ PRESETS = {
     "town": Preset(1.0, (5.0, 2.0), 0.3, 60.0),
     "city": Preset(1.0, (5.0, 2.0), 0.3, 120.0),
     "site": Preset(0.5, (5.0, 2.0), 0.5, 25.0),
-    CLASSIC: Preset(0.5, (5.0, 4.5, 2.0), 0.3, 40.0, 0.4, 0.6),
+    CLASSIC: Preset(0.5, (5.0, 4.5, 2.0), 0.3, 40.0, _PAPER_TOLERANCE, 0.6),
 }
 
 
@@ -174,37 +175,40 @@ def pipeline(points: Points, parameters: GridMinimum, progress: Progress) -> Pip
     # that are left; removed cells grow back if they are level with the ground beside them.
     cells = _counting_cells(points, parameters)
     resolved = parameters._resolved(cells)
+    values = as_given(PRESETS[parameters.preset], resolved)
     if resolved != parameters:
         progress.choice(_in_words(resolved))
     if parameters.cell_size is not None or parameters.preset == CLASSIC:
-        _tell_of_gaps(density(cells), resolved, progress)
-    size, heights = resolved.max_object_size, resolved.height_thresholds
+        _tell_of_gaps(density(cells), values.cell_size, progress)
+    size, heights = values.max_object_size, values.height_thresholds
     if resolved.preset == CLASSIC:
-        return _classic(resolved)
+        return _classic(values)
     objects = RaisedObjects(size, heights)
     return shared_pipeline(
-        LowestPoints(size=resolved.cell_size),
+        LowestPoints(size=values.cell_size),
         size,
-        ToleranceSurface(resolved.ground_tolerance, resolved.slope_tolerance),
-        (Seeds(objects_wait=True), FineSeeds(resolved.final_height)),
+        ToleranceSurface(values.ground_tolerance, values.slope_tolerance),
+        (Seeds(objects_wait=True), FineSeeds(values.final_height)),
         Plants(where_dense=False),
         is_site=parameters.preset == "site",
         objects=TallObjects(objects, min(heights)),
-        opening=(Rims(objects, resolved.final_height),),
+        opening=(Rims(objects, values.final_height),),
     )
 
 
-def _classic(resolved: GridMinimum) -> Pipeline:
+def _classic(values: Preset) -> Pipeline:
     """Return the rules of the paper's preset."""
-    heights = resolved.height_thresholds
-    objects = RaisedObjects(resolved.max_object_size, heights, whole_share=0.4, plateau_height=None)
+    heights, tolerance = values.height_thresholds, values.ground_tolerance
+    objects = RaisedObjects(values.max_object_size, heights, whole_share=0.4, plateau_height=None)
     return Pipeline(
         (
-            LowestPoints(size=resolved.cell_size),
+            LowestPoints(size=values.cell_size),
             BlockPits(),
             TallObjects(objects, min(heights)),
-            Rims(objects, resolved.final_height, objects_grow_back=True),
-            PaperSurface(resolved.ground_tolerance, resolved.slope_tolerance),
+            Rims(objects, values.final_height, objects_grow_back=True),
+            PaperSurface(
+                _PAPER_TOLERANCE if tolerance is None else tolerance, values.slope_tolerance
+            ),
             NearSurface(),
         )
     )
@@ -215,9 +219,8 @@ def _in_words(parameters: GridMinimum) -> str:
     return f"Grid minimum: {parameters.in_words(*names)}."
 
 
-def _tell_of_gaps(density: float, parameters: GridMinimum, progress: Progress) -> None:
+def _tell_of_gaps(density: float, size: float, progress: Progress) -> None:
     """Warn if cells are too small for the number of points per square metre."""
-    size = parameters.cell_size
     multiple = _multiple(density, size)
     if multiple > 1:
         progress.warning(

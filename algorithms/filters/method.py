@@ -5,7 +5,7 @@ Warnings have no figures that differ from block to block, so that equal texts ar
 
 from __future__ import annotations
 
-from typing import Any, Callable, Mapping, NamedTuple
+from typing import Any, Callable, Mapping, NamedTuple, TypeVar
 
 import numpy as np
 
@@ -14,6 +14,8 @@ from ..core.points import Points
 from ..core.progress import SILENT, Progress
 from ..grids.cells import Cells
 from .pipeline import Pipeline
+
+_Preset = TypeVar("_Preset", bound=NamedTuple)
 
 # The presets that all methods have, besides their classic one, with their labels.
 TERRAINS = {
@@ -127,6 +129,12 @@ def of_preset(label: str, limits: tuple[float, float], help: str, **more: Any) -
     least, most = limits
     values = {"unit": "m", "kind": "number", "empty": "automatic", **more}
     return parameter(None, label=label, minimum=least, maximum=most, help=help, **values)
+
+
+def as_given(preset: _Preset, parameters: ParameterSet) -> _Preset:
+    """Return the values of a preset, with those that the parameters have in place of its own."""
+    given = {name: vars(parameters)[name] for name in preset._fields}
+    return preset._replace(**{name: value for name, value in given.items() if value is not None})
 
 
 def warn_of_extent(points: Points, largest: float, name: str, progress: Progress) -> None:

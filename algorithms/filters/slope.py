@@ -18,7 +18,7 @@ from ..core.parameters import ParameterSet, parameter
 from ..core.points import Points
 from ..core.progress import Progress
 from ..grids.cells import spacing
-from .method import TERRAINS, Method, of_preset
+from .method import TERRAINS, Method, as_given, of_preset
 from .pipeline import Pipeline
 from .stages import shared_pipeline
 from .stages.breaks import Plants
@@ -39,6 +39,14 @@ _WHITEBOX_RADIUS = 2.0
 CLASSIC = "whitebox"
 # Width of the largest building in search radii, if the radius is given.
 _WIDEST = 2.0
+
+
+class OneScale(NamedTuple):
+    """The values of Whitebox's filter, as of `ManyScales`."""
+
+    search_radius: float = _WHITEBOX_RADIUS
+    slope_threshold: float = 45.0
+    height_threshold: float = 1.0
 
 
 class ManyScales(NamedTuple):
@@ -153,11 +161,7 @@ class SlopeFilter(ParameterSet):
     def resolve(self, points: Points) -> SlopeFilter:
         """Return the parameters with values in place of empty ones."""
         if self.preset == CLASSIC:
-            chosen = {
-                "search_radius": _WHITEBOX_RADIUS,
-                "slope_threshold": 45.0,
-                "height_threshold": 1.0,
-            }
+            chosen = OneScale()._asdict()
         else:
             preset = MANY_SCALES[self.preset]
             chosen = preset._asdict()
@@ -199,23 +203,13 @@ def pipeline(points: Points, parameters: SlopeFilter, progress: Progress) -> Pip
     if resolved != parameters:
         progress.choice(_in_words(resolved))
     if resolved.preset == CLASSIC:
-        rule = StandsAbove(
-            resolved.search_radius,
-            resolved.slope_threshold,
-            resolved.height_threshold,
-            resolved.slope_norm,
-            resolved.min_neighbours,
-        )
-        return Pipeline((rule,))
-    rises = SteepRises(
-        resolved.search_radius,
-        resolved.slope_threshold,
-        resolved.height_threshold,
-        resolved.slope_norm,
-    )
+        one = as_given(OneScale(), resolved)
+        return Pipeline((StandsAbove(*one, resolved.slope_norm, resolved.min_neighbours),))
+    many = as_given(MANY_SCALES[resolved.preset], resolved)
+    rises = SteepRises(*many[:3], resolved.slope_norm)
     return shared_pipeline(
-        LowestPoints(size=resolved.cell_size),
-        resolved.max_building_size,
+        LowestPoints(size=many.cell_size),
+        many.max_building_size,
         ToleranceSurface(resolved.ground_tolerance, resolved.slope_tolerance),
         (Seeds(hint="Check the thresholds and the selection of points."),),
         Plants(where_dense=False),

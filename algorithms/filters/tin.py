@@ -20,7 +20,7 @@ from ..core.points import Points
 from ..core.progress import Progress
 from ..grids.cells import spacing
 from ..tin.model_key_points import ModelKeyPoints
-from .method import TERRAINS, Method, of_preset
+from .method import TERRAINS, Method, as_given, of_preset
 from .pipeline import Pipeline
 from .stages import shared_pipeline
 from .stages.accept import NearSurface, OnlyKeyPoints
@@ -45,6 +45,7 @@ _REACH_BUILDINGS = 1.2
 _LEAST_REACH = 100.0
 # The preset with the rules of another program.
 CLASSIC = "lidar360"
+_CLASSIC_TOLERANCE = 0.18  # metres above the final surface in level terrain
 
 
 class Preset(NamedTuple):
@@ -67,7 +68,7 @@ PRESETS = {
     "town": Preset(60.0, 12.0, 1.4),
     "city": Preset(120.0, 12.0, 1.4),
     "site": Preset(25.0, 15.0, 1.4, 0.5),
-    CLASSIC: Preset(20.0, 8.0, 1.4, ground_tolerance=0.18),
+    CLASSIC: Preset(20.0, 8.0, 1.4, ground_tolerance=_CLASSIC_TOLERANCE),
 }
 
 
@@ -221,14 +222,15 @@ def pipeline(points: Points, parameters: TinDensification, progress: Progress) -
     # 2). In rounds, each triangle takes the candidate nearest to it if distance and angle allow it
     # (Axelsson 2000, section 3).
     resolved = parameters.resolve(points)
+    values = as_given(PRESETS[parameters.preset], resolved)
     if parameters.preset == CLASSIC:
         if resolved != parameters:
             progress.choice(_in_words(resolved, ""))
-        return _classic(resolved)
+        return _classic(resolved, values)
     apart = spacing(points, _LEAST_SPACING)
     if resolved != parameters or apart <= DENSE_SPACING:
         progress.choice(_in_words(resolved, _of_spacing(apart)))
-    size, cell = resolved.max_building_size, max(resolved.cell_size, apart)
+    size, cell = values.max_building_size, max(values.cell_size, apart)
     is_site = parameters.preset == "site"
     # A distance that the user gave is used in every cloud, and so is that of a site.
     knows_images = parameters.iteration_distance is None and not is_site
@@ -246,15 +248,16 @@ def pipeline(points: Points, parameters: TinDensification, progress: Progress) -
             # Low plants are level with each other, but hardly where it is wholly open.
             *(() if is_site else (Shrubs(most_open=0.95),)),
             KnownGround(),
-            _densification(resolved, knows_images),
+            _densification(resolved, values, knows_images),
         ),
         accepted=_key_points(resolved),
     )
 
 
-def _classic(resolved: TinDensification) -> Pipeline:
+def _classic(resolved: TinDensification, values: Preset) -> Pipeline:
     """Return the rules of LiDAR360's preset."""
-    size, pits = resolved.max_building_size, NarrowPits(corroborated=None, under_canopy=None)
+    size, pits = values.max_building_size, NarrowPits(corroborated=None, under_canopy=None)
+    tolerance = values.ground_tolerance
     objects = RaisedObjects(
         size,
         heights=(5.0, 4.5, 2.0),
@@ -265,7 +268,7 @@ def _classic(resolved: TinDensification) -> Pipeline:
     )
     return Pipeline(
         (
-            LowestPoints(size=resolved.cell_size),
+            LowestPoints(size=values.cell_size),
             pits,
             objects,
             ProgressiveOpening(size / 2.0, level_beyond=False, usual_window=math.inf),
@@ -281,9 +284,9 @@ def _classic(resolved: TinDensification) -> Pipeline:
             ),
             Seeds(objects_wait=True),
             KnownGround(),
-            dataclasses.replace(_densification(resolved, False), level=None),
+            dataclasses.replace(_densification(resolved, values, False), level=None),
             PlainSurface(
-                resolved.ground_tolerance,
+                _CLASSIC_TOLERANCE if tolerance is None else tolerance,
                 resolved.slope_tolerance,
                 resolved.ground_tolerance_below,
             ),
@@ -293,10 +296,10 @@ def _classic(resolved: TinDensification) -> Pipeline:
     )
 
 
-def _densification(resolved: TinDensification, knows_images: bool) -> Densification:
+def _densification(resolved: TinDensification, values: Preset, knows_images: bool) -> Densification:
     rule = Densification(
-        resolved.iteration_angle,
-        resolved.iteration_distance,
+        values.iteration_angle,
+        values.iteration_distance,
         resolved.max_terrain_angle,
         resolved.reduce_angle_edge,
         resolved.stop_edge,

@@ -40,7 +40,7 @@ class Trend:
     def __init__(self, heights: np.ndarray, size: float, first: First = (0, 0)) -> None:
         self._size = size
         self._block = max(round(_BLOCK / size), 3)
-        self._within = tuple(start % self._block for start in first)
+        self._within = first[0] % self._block, first[1] % self._block
         self._blocks = in_threads(lambda axis: self._of_axis(heights, axis), (0, 1))
         columns = np.arange(heights.shape[1]) + self._within[1]
         # Columns are interpolated once for all rows of a block.
@@ -72,7 +72,7 @@ class Trend:
 
     def along(self, row: np.ndarray, column: np.ndarray, north: int, east: int) -> np.ndarray:
         """Return the rise of the terrain from cells to the cells `north` and `east` of them."""
-        rise = np.float32(0.0)
+        rise = np.zeros(row.shape, dtype=np.float32)
         row, column = row + self._within[0], column + self._within[1]
         for cells, values in zip((north, east), self._blocks):
             if cells:

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Iterator
+from typing import TYPE_CHECKING, Any, Callable, Iterator
 
 import numpy as np
 
 from ..core.errors import printable
+from ..core.points import Box
 from ..core.progress import SILENT, Progress
 from ..core.threads import over_parts, parts_of
 from ..crs.matching import named_with_heights
@@ -18,7 +19,7 @@ from .backends import require
 from .cloud import PointCloud
 from .crs_records import read_crs
 from .extrabytes import REMEMBERED, dimension_names, remembers
-from .lasfile import FIRST_EXTENDED_FORMAT, LasFile
+from .lasfile import FIRST_EXTENDED_FORMAT, Evlr, LasFile, Vlr
 from .opening import open_las
 from .records import MOST_KEPT, named, needed, read_records
 from .return_numbers import FROM_ZERO, count_from_one
@@ -61,7 +62,7 @@ def read_cloud(
         cloud = _empty_cloud(layout, layout.count, crs)
         pieces = read_records(layout, columns=needed(layout))
     for piece in pieces:
-        _fill(cloud, slice(start, start + len(piece)), named(layout, piece))
+        _fill(layout, cloud, slice(start, start + len(piece)), named(layout, piece))
         start += len(piece)
         progress(start / layout.count)
     return count_from_one(cloud)
@@ -78,7 +79,7 @@ def read_parts(
     crs, start = read_crs(layout, progress), 0
     for chunk in read_chunks(layout, times, strips):
         part = _empty_cloud(layout, len(chunk), crs)
-        _fill(part, slice(None), chunk)
+        _fill(layout, part, slice(None), chunk)
         if times:
             part.gps_time = np.array(chunk["gps_time"], dtype=np.float64)
         if strips:
@@ -163,16 +164,9 @@ def inspect(path: Path | LasFile, progress: Progress = SILENT) -> Description:
         cloud = read_cloud(layout, progress)
     if cloud.from_zero:
         progress.warning(FROM_ZERO)
-    integers = (cloud.x, cloud.y, cloud.z)
-    corners = [
-        tuple(
-            float(int(pick(column)) * scale + offset)
-            for column, scale, offset in zip(integers, cloud.scale, cloud.offset)
-        )
-        for pick in (np.min, np.max)
-        if layout.count
-    ]
-    scale = length_scale(cloud.crs, (*corners[0][:2], *corners[1][:2]) if corners else None)
+    lowest, highest = (_corner(cloud, pick) if layout.count else None for pick in (np.min, np.max))
+    box = (*lowest[:2], *highest[:2]) if lowest and highest else None
+    scale = length_scale(cloud.crs, box)
     return Description(
         path=str(layout.path),
         file_size=layout.size,
@@ -180,11 +174,11 @@ def inspect(path: Path | LasFile, progress: Progress = SILENT) -> Description:
         encoding="COPC" if layout.is_copc else "LAZ" if layout.is_compressed else "uncompressed",
         point_format=layout.point_format,
         point_count=layout.count,
-        minimum=corners[0] if corners else None,
-        maximum=corners[1] if corners else None,
+        minimum=lowest,
+        maximum=highest,
         scale=layout.scale,
         offset=layout.offset,
-        density=_density(cloud, scale, *corners) if corners else None,
+        density=_density(cloud, scale, box) if box else None,
         crs=named_with_heights(cloud.crs.name, cloud.crs.datum),
         epsg=cloud.crs.epsg,
         is_geographic=cloud.crs.is_geographic,
@@ -195,13 +189,14 @@ def inspect(path: Path | LasFile, progress: Progress = SILENT) -> Description:
         returns=_histogram(cloud.return_number - np.uint8(cloud.from_zero)),
         withheld=int(np.count_nonzero(cloud.withheld)),
         extra_dimensions=dimension_names(layout),
-        records=[
-            f"{record.key[0]} {record.key[1]} {record.description}".rstrip()
-            for record in (*layout.vlrs, *layout.evlrs)
-        ],
+        records=[*map(_named, layout.vlrs), *map(_named, layout.evlrs)],
         system_identifier=layout.system_identifier,
         software=layout.software,
     )
+
+
+def _named(record: Vlr | Evlr) -> str:
+    return f"{record.key[0]} {record.key[1]} {record.description}".rstrip()
 
 
 def require_packages(layout: LasFile) -> None:
@@ -230,7 +225,7 @@ def columns_of(layout: LasFile) -> dict[str, tuple[str, type]]:
     return columns
 
 
-def cloud_of(layout: LasFile, crs: Crs, **columns: np.ndarray) -> PointCloud:
+def cloud_of(layout: LasFile, crs: Crs, **columns: Any) -> PointCloud:
     """Return some points of a file as a cloud."""
     return PointCloud(
         path=layout.path,
@@ -246,14 +241,17 @@ def cloud_of(layout: LasFile, crs: Crs, **columns: np.ndarray) -> PointCloud:
 def _empty_cloud(layout: LasFile, count: int, crs: Crs, **kept: np.ndarray) -> PointCloud:
     """Return a cloud with uninitialised columns, beside the given ones."""
     kinds = {name: kind for name, (_, kind) in columns_of(layout).items() if name not in kept}
-    empty = {name: np.empty(count, dtype=kind) for name, kind in kinds.items()}
-    return cloud_of(layout, crs, **empty, **kept)
+    return cloud_of(
+        layout, crs, **kept, **{name: np.empty(count, kind) for name, kind in kinds.items()}
+    )
 
 
-def _fill(cloud: PointCloud, where: slice, points: laspy.PackedPointRecord) -> None:
+def _fill(
+    layout: LasFile, cloud: PointCloud, where: slice, points: laspy.PackedPointRecord
+) -> None:
     """Copy points into a part of a cloud, except for coordinates that stay among its records."""
     there = () if cloud.records is None else _COORDINATES
-    columns = columns_of(cloud.file).items()
+    columns = columns_of(layout).items()
     names = {name: source for name, (source, _) in columns if name not in there}
 
     def copy(part: slice) -> None:
@@ -263,10 +261,20 @@ def _fill(cloud: PointCloud, where: slice, points: laspy.PackedPointRecord) -> N
     over_parts(copy, len(points), _POINTS_A_PART, SILENT)
 
 
-def _density(
-    cloud: PointCloud, scale: float, minimum: tuple[float, ...], maximum: tuple[float, ...]
-) -> float | None:
-    area = (maximum[0] - minimum[0]) * (maximum[1] - minimum[1])
+def _corner(
+    cloud: PointCloud, pick: Callable[[np.ndarray], np.signedinteger]
+) -> tuple[float, float, float]:
+    """Return the smallest or the largest x, y and z in units of the CRS."""
+    x, y, z = (
+        float(int(pick(column)) * scale + offset)
+        for column, scale, offset in zip((cloud.x, cloud.y, cloud.z), cloud.scale, cloud.offset)
+    )
+    return x, y, z
+
+
+def _density(cloud: PointCloud, scale: float, box: Box) -> float | None:
+    west, south, east, north = box
+    area = (east - west) * (north - south)
     area *= (cloud.crs.horizontal_unit / scale) ** 2
     return None if cloud.crs.is_geographic or area <= 0 else cloud.count / area
 

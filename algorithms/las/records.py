@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import contextlib
-from typing import TYPE_CHECKING, BinaryIO, Callable, Iterable, Iterator, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, BinaryIO, Callable, Iterable, Iterator, Sequence, TypeVar
 
 import numpy as np
 
@@ -18,6 +19,8 @@ from .sources import changed, damage_told, damaged, open_source
 if TYPE_CHECKING:
     import laspy
     import lazrs
+
+_Result = TypeVar("_Result")
 
 # Layers of lazrs.
 _NEEDED = ("Z", "CLASSIFICATION", "FLAGS")
@@ -92,23 +95,24 @@ def _reader(
     layout: LasFile, columns: Sequence[str] | None
 ) -> Iterator[Callable[[np.ndarray, int], None]]:
     """Yield a function that fills an array with the next records, given the index of the first."""
-    kept, start = layout.unpacked, layout.points_start
+    kept = layout.unpacked
     if kept is not None and kept.has(columns):
-        is_open = hasattr(kept.file, "readinto")
-        opened, start = contextlib.nullcontext(kept.file) if is_open else open_source(kept.file), 0
+        kept_in, start = kept.file, 0
     else:
-        opened, kept = open_source(layout.path), None
+        kept, kept_in, start = None, layout.path, layout.points_start
+    opened = open_source(kept_in) if isinstance(kept_in, Path) else contextlib.nullcontext(kept_in)
     with opened as file:
-        if layout.is_compressed and kept is None:
+        if layout.laszip is not None and kept is None:
             file.seek(start)
-            decompressor = _decompressor(layout, file, columns)
+            decompressor = _decompressor(layout, layout.laszip, file, columns)
             yield lambda records, _: decompressor.decompress_many(records.reshape(-1))
             return
 
         def read(records: np.ndarray, first: int) -> None:
             # Several readers can share an open file.
             file.seek(start + first * layout.record_length)
-            if file.readinto(records.reshape(-1)) != records.size:
+            # Files have this, but not the type `BinaryIO`.
+            if file.readinto(records.reshape(-1)) != records.size:  # type: ignore[attr-defined]
                 raise damaged(layout.path)
 
         yield read
@@ -135,8 +139,10 @@ def as_points(
 def column(records: np.ndarray, start: int, kind: str | np.dtype) -> np.ndarray:
     """Return the field that begins at a byte of each record, as a writable view."""
     # numpy before 1.23 cannot view some columns as another type, but whole rows.
-    row = {"names": ["field"], "formats": [kind], "offsets": [start]}
-    return records.view(np.dtype({**row, "itemsize": records.shape[1]}))["field"][:, 0]
+    row = np.dtype(
+        {"names": ["field"], "formats": [kind], "offsets": [start], "itemsize": records.shape[1]}
+    )
+    return records.view(row)["field"][:, 0]
 
 
 class HeaderCounts:
@@ -203,7 +209,7 @@ class LazRecordWriter:
 
         return [size for _, size in lazrs.read_chunk_table(file, self._vlr)]
 
-    def _call(self, function, *arguments):
+    def _call(self, function: Callable[..., _Result], *arguments: object) -> _Result:
         """Call lazrs; raise the original error of the file instead of that of lazrs."""
         import lazrs
 
@@ -234,7 +240,7 @@ class _ErrorKeeper:
     def tell(self) -> int:
         return self._file.tell()
 
-    def _keep(self, function, *arguments):
+    def _keep(self, function: Callable[..., _Result], *arguments: object) -> _Result:
         try:
             return function(*arguments)
         except OSError as error:
@@ -268,17 +274,19 @@ def copy_range(source: BinaryIO, target: BinaryIO, start: int, end: int) -> None
     while start < end:
         block = source.read(min(_BLOCK, end - start))
         if not block:
-            raise changed(source.name)
+            raise changed(Path(source.name))
         target.write(block)
         start += len(block)
 
 
-def _decompressor(layout: LasFile, file: BinaryIO, columns: Sequence[str] | None):
+def _decompressor(
+    layout: LasFile, record: bytes, file: BinaryIO, columns: Sequence[str] | None
+) -> lazrs.ParLasZipDecompressor:
     import lazrs
 
     if columns is None or layout.point_format < FIRST_EXTENDED_FORMAT:
         check_gps_times(layout)
-    record, points = layout.laszip, layout.chunk_table[0][0]
+    points = layout.chunk_table[0][0]
     if points > layout.count:
         # Room for a whole chunk is made, however few points there are.
         record = with_chunk_size(record, layout.count)

@@ -73,10 +73,11 @@ def write_changed(
     rewriting = EditedFile(layout, changes, None if cloud is None else cloud.records)
     if layout.is_compressed:
         require("lazrs")
-    kept = None if rewriting.only_classes is None else layers_kept(layout, target)
+    classes = rewriting.only_classes
+    kept = None if classes is None else layers_kept(layout, target)
     with replacing(target) as temporary:
-        if kept is not None:
-            _replace_classes(rewriting, kept, temporary, progress, cloud)
+        if classes is not None and kept is not None:
+            _replace_classes(rewriting, classes, kept, temporary, progress, cloud)
         elif is_copc(target):
             write_copc(rewriting, temporary, progress, memory)
         else:
@@ -107,7 +108,7 @@ class Kept(NamedTuple):
     """Positions in a compressed file that allow to copy everything but the classes."""
 
     layers: ClassLayers
-    index: CopcIndex | None  # if the output is COPC as well
+    octree: CopcIndex | None = None  # if the output is COPC as well
 
 
 def layers_kept(source: LasFile, target: Path) -> Kept | None:
@@ -117,32 +118,39 @@ def layers_kept(source: LasFile, target: Path) -> Kept | None:
     if target.suffix.lower() != ".laz" or is_copc(target) > source.is_copc:
         return None
     layers = class_layers(source)
-    if layers is None or not is_copc(target):
-        return layers and Kept(layers, None)
+    if layers is None:
+        return None
+    if not is_copc(target):
+        return Kept(layers)
     try:
-        index = CopcIndex(source)
+        octree = CopcIndex(source)
     except OctreeError:
         return None
-    return Kept(layers, index) if index.fits(layers.chunks) else None
+    return Kept(layers, octree) if octree.fits(layers.chunks) else None
 
 
 def _replace_classes(
-    rewriting: EditedFile, kept: Kept, target: Path, progress: Progress, cloud: PointCloud | None
+    rewriting: EditedFile,
+    classes: np.ndarray,
+    kept: Kept,
+    target: Path,
+    progress: Progress,
+    cloud: PointCloud | None,
 ) -> None:
     """Write a compressed file, of whose points only the classes change."""
-    layout, dropped = rewriting.target, ()
-    if kept.index is None:
+    layout = rewriting.target
+    dropped = (COPC_INFO, COPC_HIERARCHY) if kept.octree is None else ()
+    if kept.octree is None:
         _tell_of_index(layout, progress)
-        dropped = (COPC_INFO, COPC_HIERARCHY)
     with open(target, "w+b") as file:
         vlrs = tuple(vlr for vlr in layout.vlrs if vlr.key not in dropped)
         file.write(layout.prefix(vlrs, compressed=True))
-        for done in kept.layers.write(file, rewriting.only_classes, cloud):
+        for done in kept.layers.write(file, classes, cloud):
             progress(done)
         shift = file.seek(0, 2) - layout.tail_start
         _copy_tail(rewriting, file, *dropped)
-        if kept.index is not None:
-            kept.index.write(file, kept.layers.moved, shift)
+        if kept.octree is not None:
+            kept.octree.write(file, kept.layers.moved, shift)
 
 
 def _tell_of_index(layout: LasFile, progress: Progress) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 import re
 from os import PathLike
-from typing import Any, Callable, Iterator
+from typing import Any, Callable, Dict, Iterable, Iterator, Tuple
 
 import numpy as np
 
@@ -16,6 +16,9 @@ from .shapes import Shapes
 from .vector_library import read_features
 from .wkb import geometries_of
 
+# The attributes of a geometry, and its coordinates with these.
+_Attributes = Dict[str, Any]
+_Feature = Tuple[Any, _Attributes]
 # Errors while reading what is not valid GeoJSON.
 _INVALID = (
     ValueError, TypeError, KeyError, IndexError, AttributeError, RecursionError, OverflowError
@@ -77,16 +80,17 @@ def read_points(source: Any) -> tuple[tuple[np.ndarray, dict[str, Any]], ...]:
 
 
 def _shapes(
-    source: Any, kind: str, shape_of: Callable[[Any, dict], Any], may_be_empty: bool = False
+    source: Any, kind: str, shape_of: Callable[[Any, _Attributes], Any], may_be_empty: bool = False
 ) -> Shapes:
     """Return what `shape_of` returns for coordinates and attributes of each geometry of a kind."""
     word, crs = _WORDS[kind], None
+    found: Iterable[_Feature]
     try:
         if is_frame(source):
             label, (found, crs) = FRAME, _of_frame(source, kind)
         elif isinstance(source, (str, PathLike)):
             label = str(source)
-            found, crs = read_features(source, kind, None if kind == "Point" else CLASS_FIELD)
+            found, crs = read_features(label, kind, None if kind == "Point" else CLASS_FIELD)
         elif (content := _geojson_of(source)) is not None:
             label, (found, crs) = _GEOMETRY, _of_geojson(content, kind)
         else:
@@ -139,7 +143,7 @@ def _geojson_of(given: Any) -> Any:
     return {"type": "GeometryCollection", "geometries": geometries}
 
 
-def _of_arrays(given: Any, kind: str) -> Iterator[tuple[Any, dict]]:
+def _of_arrays(given: Any, kind: str) -> Iterator[_Feature]:
     """Yield corners, or rings of corners, of lists or of one alone; no attributes."""
     depth, first = 0, given
     while isinstance(first, (list, tuple, np.ndarray)) and len(first):
@@ -149,9 +153,10 @@ def _of_arrays(given: Any, kind: str) -> Iterator[tuple[Any, dict]]:
     yield from ((corners, {}) for corners in given)
 
 
-def _of_frame(frame: Any, kind: str) -> tuple[Iterator[tuple[Any, dict]], str | None]:
+def _of_frame(frame: Any, kind: str) -> tuple[Iterable[_Feature], str | None]:
     """Return coordinates and attributes of each geometry of a kind, and the CRS of a frame."""
-    shapes, rows = frame.geometry, itertools.repeat({})
+    shapes = frame.geometry
+    rows: Iterable[_Attributes] = itertools.repeat({})
     # Of a frame without other columns, older pandas returns no records.
     if len(getattr(frame, "columns", ())) > 1:
         rows = frame.drop(columns=shapes.name).to_dict("records")
@@ -181,11 +186,11 @@ def _polygon(rings: Any, columns: int = 2) -> Polygon:
     return tuple(polygon)
 
 
-def _polygon_with_heights(rings: Any, _: dict) -> Polygon:
+def _polygon_with_heights(rings: Any, _: _Attributes) -> Polygon:
     return _polygon(rings, 3)
 
 
-def _polygon_with_class(rings: Any, attributes: dict) -> tuple[Polygon, Any]:
+def _polygon_with_class(rings: Any, attributes: _Attributes) -> tuple[Polygon, Any]:
     return _polygon(rings), attributes.get(CLASS_FIELD)
 
 
@@ -201,7 +206,7 @@ def _finite(corners: np.ndarray) -> np.ndarray:
     return corners
 
 
-def _of_geojson(content: Any, kind: str) -> tuple[Iterator[tuple[Any, dict]], str | None]:
+def _of_geojson(content: Any, kind: str) -> tuple[Iterable[_Feature], str | None]:
     """Return coordinates and attributes of each geometry of a kind, and the CRS that is stated."""
     crs = content.get("crs")
     if crs is None:
@@ -214,9 +219,9 @@ def _of_geojson(content: Any, kind: str) -> tuple[Iterator[tuple[Any, dict]], st
     return _nodes_of(content, kind), LONGITUDE_LATITUDE if is_degrees else f"{authority}:{code}"
 
 
-def _nodes_of(content: Any, kind: str) -> Iterator[tuple[Any, dict]]:
+def _nodes_of(content: Any, kind: str) -> Iterator[_Feature]:
     """Yield coordinates and attributes of each geometry of a kind in GeoJSON, in order."""
-    nodes = [(content, {})]
+    nodes: list[_Feature] = [(content, {})]
     while nodes:
         node, attributes = nodes.pop()
         if node is None:  # a feature without geometry

@@ -49,11 +49,11 @@ class DenseSurface:
         # The lattice begins near (0, 0), whatever the anchor, so that others can use it.
         counted = [math.floor(place / cell + _ROUNDING) for place in anchor]
         rests = [place - number * cell for place, number in zip(anchor, counted)]
-        near = tuple(0.0 if abs(rest) < _ROUNDING * cell else rest for rest in rests)
+        x, y = (0.0 if abs(rest) < _ROUNDING * cell else rest for rest in rests)
         # Row and column of the cell at the anchor.
         self._first, self._cell = counted[::-1], cell
-        if known is None or (known.side, known.anchor) != (cell / VERTICES_A_SIDE, near):
-            known = LatticeSample(points, cell / VERTICES_A_SIDE, near, progress)
+        if known is None or (known.side, known.anchor) != (cell / VERTICES_A_SIDE, (x, y)):
+            known = LatticeSample(points, cell / VERTICES_A_SIDE, (x, y), progress)
         self.thinned, self._points = known, known.points
 
     def raster(
@@ -67,11 +67,9 @@ class DenseSurface:
         """
         heights, sure = np.full(shape, np.nan), np.zeros(shape, dtype=bool)
         side = TILE // VERTICES_A_SIDE
-        places = itertools.product(
-            *(
-                range(first // side, -(-(first + count) // side))
-                for first, count in zip(self._first, shape)
-            )
+        rows, columns = (
+            range(first // side, -(-(first + count) // side))
+            for first, count in zip(self._first, shape)
         )
 
         def fill(place: tuple[int, int]) -> None:
@@ -90,7 +88,7 @@ class DenseSurface:
             for whole, part in zip((heights, sure), found):
                 whole[cells] = part.reshape(whole[cells].shape)
 
-        in_threads(fill, places, progress.part(0.0, 0.5))
+        in_threads(fill, itertools.product(rows, columns), progress.part(0.0, 0.5))
         left = np.flatnonzero(~sure)
         if len(left):
             row, column = np.divmod(left, shape[1])

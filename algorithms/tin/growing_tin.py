@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Iterable
+
 import numpy as np
 
 from ..core.points import Points
@@ -142,7 +144,7 @@ class GrowingTin:
         )
         return opposite_areas(to_x, to_y)
 
-    def _interpolated(self, corners: list[np.ndarray], areas: list[np.ndarray]) -> np.ndarray:
+    def _interpolated(self, corners: list[np.ndarray], areas: Iterable[np.ndarray]) -> np.ndarray:
         # Places may lie outside by rounding. Heights must not be extrapolated.
         weights = [np.maximum(area, 0.0) for area in areas]
         height = sum(
@@ -271,8 +273,8 @@ class GrowingTin:
         self._moved[before] = after
         later = self._moved[later]
         self._move(before, after)
-        for k, (corner, opposite) in enumerate(((p, q), (b, c), (q, p))):
-            self.corners[3 * t + k], self.corners[3 * u + k] = corner, opposite
+        for side, (corner, opposite) in enumerate(((p, q), (b, c), (q, p))):
+            self.corners[3 * t + side], self.corners[3 * u + side] = corner, opposite
         self._join(3 * t + 1, 3 * u + 1)
         return np.concatenate((after, later))
 

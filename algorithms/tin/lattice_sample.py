@@ -113,7 +113,7 @@ class LatticeSample:
         """
         width = TILE + 2 * margin
         lattice = np.full((width, width), -1, dtype=np.int32)
-        x, y, source, count = [], [], [], 0
+        x, y, source, count = [np.zeros(0)], [np.zeros(0)], [np.zeros(0, dtype=np.intp)], 0
         for row, column in itertools.product((-1, 0, 1), (-1, 0, 1)):
             tile = self.tiles.get((place[0] + row, place[1] + column))
             if tile is None:
@@ -127,11 +127,7 @@ class LatticeSample:
             y.append(tile.y[inside] + row * TILE)
             source.append(tile.source[inside])
             count += len(inside)
-        return Window(
-            lattice,
-            *(np.concatenate(parts) if parts else np.zeros(0) for parts in (x, y)),
-            np.concatenate(source) if source else np.zeros(0, dtype=np.intp),
-        )
+        return Window(lattice, np.concatenate(x), np.concatenate(y), np.concatenate(source))
 
 
 class Window(NamedTuple):
@@ -150,7 +146,7 @@ def _are_outer(slots: np.ndarray) -> np.ndarray:
     # Only points of such cells can be corners of the convex hull.
     occupied = np.zeros((TILE, TILE), dtype=bool)
     occupied.ravel()[slots] = True
-    has_any, columns = occupied.any(axis=1), np.arange(TILE)
+    has_any, columns = occupied.max(axis=1), np.arange(TILE)
     outer = np.zeros((TILE, TILE), dtype=bool)
     for rows in (slice(None), slice(None, None, -1)):
         turned = occupied[rows]

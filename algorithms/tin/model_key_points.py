@@ -312,7 +312,7 @@ class _Keys:
         return these.
         """
         edges = self._tin.ambiguous_edges()
-        ambiguous = self._within(edges.reshape(-1, 3).any(axis=1), pending)
+        ambiguous = self._within(edges.reshape(-1, 3).max(axis=1), pending)
         for k in range(3):
             edge = 3 * self._triangle[ambiguous] + k
             beside, edge = ambiguous[edges[edge]], edge[edges[edge]]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from typing import Iterator, NamedTuple
+from typing import TYPE_CHECKING, Iterator, NamedTuple
 
 import numpy as np
 
@@ -13,6 +13,9 @@ from ..core.threads import in_threads
 from ..grids.cells import cells_at
 from .delaunay_walk import circumcircles
 from .triangulation import Tin, hull_corners, is_one_line, lowest_of_duplicates, triangles_of_cells
+
+if TYPE_CHECKING:
+    from scipy.spatial import cKDTree
 
 # Most vertices of a block: so few that all threads have work, and that progress and cancel do not
 # have to wait.
@@ -62,7 +65,8 @@ class Surface:
         if meshed is not None:
             self._meshed = np.flatnonzero(meshed[kept])
         self._lock = threading.Lock()
-        self._tree_of_all = self._border_of_all = None
+        self._tree_of_all: cKDTree | None = None
+        self._border_of_all: tuple[np.ndarray, np.ndarray, np.ndarray] | None = None
 
     def heights(
         self,
@@ -117,7 +121,7 @@ class Surface:
         return self._vertices.z[self._tree.query(np.column_stack((x, y)))[1]]
 
     @property
-    def _tree(self):
+    def _tree(self) -> cKDTree:
         from scipy.spatial import cKDTree
 
         with self._lock:
@@ -136,8 +140,8 @@ class Surface:
             if self._border_of_all is None:
                 x, y, _ = self._vertices
                 corners = hull_corners(x, y)
-                borders = (_border(x[corners], y[corners], sign) for sign in (1.0, -1.0))
-                self._border_of_all = (*borders, corners)
+                lower, upper = (_border(x[corners], y[corners], sign) for sign in (1.0, -1.0))
+                self._border_of_all = lower, upper, corners
             return self._border_of_all
 
     def _blocks(self, x: np.ndarray, y: np.ndarray) -> Iterator[tuple[np.ndarray, float]]:
@@ -287,12 +291,11 @@ def _located(tin: Tin, x: np.ndarray, y: np.ndarray, cells: CellLattice | None) 
     shape = int(row.max()) - first_row + 1, int(column.max()) - first_column + 1
     if shape[0] * shape[1] > _MOST_CELLS * len(x):
         return tin.locate(x, y)
-    corner = tuple(
+    west, south = (
         start + first * cells.size for start, first in zip(cells.anchor, (first_column, first_row))
     )
-    return triangles_of_cells(tin, corner, cells.size, shape)[
-        row - first_row, column - first_column
-    ]
+    triangles = triangles_of_cells(tin, (west, south), cells.size, shape)
+    return triangles[row - first_row, column - first_column]
 
 
 def _border(x: np.ndarray, y: np.ndarray, sign: float) -> np.ndarray:

@@ -74,11 +74,11 @@ class Tin:
         inside = np.flatnonzero(triangle >= 0)
         for part in parts_of(len(inside), _QUERIES_A_STEP):
             queries = inside[part]
-            weights = self._opposite_areas(
+            areas = self._opposite_areas(
                 x[queries] - self._origin[0], y[queries] - self._origin[1], triangle[queries]
             )
             # A query on the hull may lie outside by rounding: it must not be extrapolated.
-            weights = [np.maximum(weight, 0.0) for weight in weights]
+            weights = [np.maximum(area, 0.0) for area in areas]
             corners = self.z[self.triangles[triangle[queries]]]
             weighted = sum(weight * corners[:, k] for k, weight in enumerate(weights))
             total = weights[0] + weights[1] + weights[2]

@@ -34,7 +34,8 @@ class Build:
         elif system == "linux":
             version = platform.libc_ver()[1]
         numbers = [int(number) for number in re.findall(r"\d+", version)[:2]]
-        return cls(sys.version_info[:2], system, machine, (*numbers, 0, 0)[:2])
+        major, minor = (*numbers, 0, 0)[:2]
+        return cls(sys.version_info[:2], system, machine, (major, minor))
 
     @property
     def name(self) -> str:
@@ -64,7 +65,7 @@ class Build:
         if abi == "abi3":
             # The stable ABI of a version also works in all later versions.
             found = re.fullmatch(r"cp3(\d+)", python)
-            return bool(found) and self.python >= (3, int(found.group(1)))
+            return found is not None and self.python >= (3, int(found[1]))
         return python == abi == self._python
 
     def _takes_system(self, system: str) -> bool:

@@ -20,7 +20,7 @@ from ...algorithms.tools.ground.output import Output
 from .. import compat
 from ..i18n import mark
 from .feedback import Refusal
-from .inputs import CloudCrs, box_of, layer_polygons, rings_of
+from .inputs import CloudCrs, box_of, layer_shapes, rings_of
 from .stated_crs import text_of
 
 _FIELDS = "EXTENT", "BOUNDARY"
@@ -55,8 +55,19 @@ def area_of(
     if "EXTENT" in given:
         box = box_of(algorithm, parameters, "EXTENT", context, crs)
     if "BOUNDARY" in given:
-        polygons = layer_polygons(algorithm, parameters, *_BOUNDARY, context, crs)
+        polygons = _polygons_of(algorithm, parameters, context, crs)
     return Area(box, polygons)
+
+
+def _polygons_of(
+    algorithm: QgsProcessingAlgorithm,
+    parameters: dict[str, Any],
+    context: QgsProcessingContext,
+    crs: CloudCrs,
+) -> tuple[Polygon, ...]:
+    """Return the polygons of the boundary; refuse a layer without any."""
+    found = layer_shapes(algorithm, parameters, *_BOUNDARY, context, crs, may_be_empty=False)
+    return tuple(rings for rings, _ in found)
 
 
 def has_area(parameters: Mapping[str, Any]) -> bool:
@@ -83,7 +94,7 @@ def area_in_own_crs(
     else:
         source = algorithm.parameterAsSource(parameters, "BOUNDARY", context)
         crs = CloudCrs(stated=source.sourceCrs().toWkt() if source is not None else None)
-        polygons = layer_polygons(algorithm, parameters, *_BOUNDARY, context, crs)
+        polygons = _polygons_of(algorithm, parameters, context, crs)
         crs = crs.value
     return Area(None, Shapes(polygons, text_of(crs), "The area"))
 

@@ -358,7 +358,7 @@ def layer_shapes(
     kind: Any = compat.POLYGONS,
     attribute: str = "",
     may_be_empty: bool = True,
-) -> tuple[tuple[Polygon | np.ndarray, Any], ...]:
+) -> tuple[tuple[Any, Any], ...]:
     """Return the polygons (rings, float64 (n, 2)) or lines (x, y, and z or NaN, (n, 3)) of the
     layer in a field, in the CRS of the points, and an attribute of each.
     """
@@ -378,11 +378,6 @@ def layer_shapes(
     if not found and (others or not may_be_empty):
         raise Refusal(refusal, label)
     return tuple(found)
-
-
-def layer_polygons(*field: Any) -> tuple[Polygon, ...]:
-    """Return the polygons of a layer, for the arguments of `layer_shapes`; refuse an empty one."""
-    return tuple(rings for rings, _ in layer_shapes(*field, may_be_empty=False))
 
 
 def rings_of(polygon: QgsPolygon) -> Polygon:
