@@ -25,6 +25,10 @@ from bare_earth.algorithms.survey.files import Inputs
 from bare_earth.algorithms.tools import map_tool
 from bare_earth.algorithms.tools.ground.output import Output
 
+# The fastest filter, for tests that are not about what is ground: for functions and for commands.
+FAST = {"method": "slope", "preset": "whitebox"}
+FAST_WORDS = ("--method", "slope", "--preset", "whitebox")
+
 
 class CancelAt(Progress):
     """Cancels from a share of the work on, and knows how far it came."""

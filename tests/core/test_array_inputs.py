@@ -10,6 +10,7 @@ import laspy
 import numpy as np
 import pytest
 from conftest import Heard
+from runs import FAST
 from surveys import ORIGIN, strip, write
 
 import bare_earth
@@ -131,18 +132,17 @@ def shapes_of(square):
 def test_geometries_of_any_library_are_areas(las, tmp_path):
     raw = laspy.LasData(las.header, las.points.copy())
     raw.classification[:] = 1
-    fast = {"method": "slope", "preset": "whitebox"}
-    wanted = arrays.classify(raw, boundary=[[SQUARE]], **fast)
+    wanted = arrays.classify(raw, boundary=[[SQUARE]], **FAST)
     assert 0.1 < (wanted == 2).mean() < 0.6
     for name, shape in shapes_of(SQUARE).items():
-        assert np.array_equal(arrays.classify(raw, boundary=shape, **fast), wanted), name
-    found = arrays.classify(raw, corrections=shapes_of(SQUARE)["collection"], **fast)
+        assert np.array_equal(arrays.classify(raw, boundary=shape, **FAST), wanted), name
+    found = arrays.classify(raw, corrections=shapes_of(SQUARE)["collection"], **FAST)
     feature = [shapes_of(SQUARE)["feature"]]
-    same = arrays.classify(raw, corrections=feature, **fast)
+    same = arrays.classify(raw, corrections=feature, **FAST)
     assert (found == 6).sum() == (same == 6).sum() > 1000
     path = tmp_path / "a.laz"
     raw.write(str(path))
-    bare_earth.classify(path, tmp_path / "b.laz", boundary=shapes_of(SQUARE)["shapely"], **fast)
+    bare_earth.classify(path, tmp_path / "b.laz", boundary=shapes_of(SQUARE)["shapely"], **FAST)
     assert np.array_equal(laspy.read(str(tmp_path / "b.laz")).classification, wanted)
 
 

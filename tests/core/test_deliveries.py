@@ -13,6 +13,7 @@ import toy_delivery
 from conftest import Heard
 from independent_water import compare, corners_in_flat_water
 from matrices import quick
+from runs import FAST, FAST_WORDS
 from scipy.spatial import cKDTree
 from surveys import classes_of, finished, heights_of, write_points
 
@@ -34,7 +35,7 @@ pytest.importorskip("pyproj")
 EAST, NORTH, WIDTH, DEPTH = 500_000.0, 5_600_000.0, 150.0, 90.0
 LAKE = (115.0, 45.0, 22.0)  # x, y and radius
 # What takes the least time: nothing held out, the fastest method, large cells; and such a delivery.
-QUICK = {"hold_out_share": None, "method": "slope", "dtm_cell_size": 2.0}
+QUICK = {"hold_out_share": None, **FAST, "dtm_cell_size": 2.0}
 SMALL = {"delivery": "drone-site", **QUICK}
 ALWAYS = {"index.html", "delivery.json", "accuracy.html", "quality.html", "dtm.tif",
           "hillshade.tif"}  # fmt: skip
@@ -402,7 +403,7 @@ def test_checkpoints_are_compared_with_points_and_terrain_model(scene, tmp_path)
     x, y = np.meshgrid([60.0, 66.0, 72.0], [10.0, 45.0, 80.0])
     places = np.column_stack((x.ravel(), y.ravel(), ground_at(x, y).ravel() - 0.1))
     known = places + np.array((EAST, NORTH, 0.0))
-    summary = deliver(scene[1], tmp_path / "out", delivery="drone-site", checkpoints=known)
+    summary = deliver(scene[1], tmp_path / "out", delivery="drone-site", checkpoints=known, **FAST)
     assert summary.check.counted == 9 and summary.check.shift == pytest.approx(-0.1, abs=0.03)
     assert {"checkpoints.csv", "checkpoints.gpkg"} <= files_of(tmp_path / "out")
     with pytest.raises(BareEarthError, match="checkpoints"):
@@ -623,7 +624,7 @@ def test_cells_follow_the_density_of_the_ground():
 
 def test_the_command_delivers_and_prints_the_figures(scene, tmp_path, capsys):
     words = ["deliver", "drone-site", str(scene[1]), str(tmp_path / "out"), "--json"]
-    assert main([*words, "--dtm-cell-size", "2", "--hold-out-share", "none"]) == 0
+    assert main([*words, "--dtm-cell-size", "2", "--hold-out-share", "none", *FAST_WORDS]) == 0
     told = json.loads(capsys.readouterr().out)
     assert told["cell_size"] == 2.0 and told["check"] is None and told["quality"]["points"]
     reviewed = {"expected_error", "error_cause", "places"}
@@ -640,7 +641,7 @@ def toy(monkeypatch):
 def test_a_new_delivery_is_one_row(toy, scene, tmp_path, capsys):
     # It is in the command and its help, and in the function and its documentation.
     words = [toy_delivery.NAME, str(scene[1]), str(tmp_path / "out"), "--hold-out-share", "none"]
-    assert main(["deliver", *words]) == 0
+    assert main(["deliver", *words, *FAST_WORDS]) == 0
     expected = {"index.html", "delivery.json", "quality.html", "dtm.tif", "contours.gpkg"}
     assert files_of(tmp_path / "out") == expected
     assert 31 in classes_of(tmp_path / "out" / "points" / "whole.laz")
@@ -650,7 +651,7 @@ def test_a_new_delivery_is_one_row(toy, scene, tmp_path, capsys):
     assert f"{toy_delivery.NAME}: {toy.about}" in " ".join(capsys.readouterr().out.split())
     assert f'"{toy_delivery.NAME}"' in bare_earth.deliver.__doc__
     summary = bare_earth.deliver(
-        scene[1], tmp_path / "again", delivery=toy_delivery.NAME, hold_out_share=None
+        scene[1], tmp_path / "again", delivery=toy_delivery.NAME, hold_out_share=None, **FAST
     )
     assert summary.cell_size == 2.0 and set(summary.layers) == {"dtm", "contours"}
 
@@ -692,7 +693,7 @@ def test_checkpoints_are_among_what_the_command_prints(scene, tmp_path, capsys):
     table = "\n".join(["x,y,z", *(",".join(map(str, row)) for row in rows)])
     (tmp_path / "points.csv").write_text(table)
     words = ["--checkpoints", str(tmp_path / "points.csv"), "--hold-out-share", "none"]
-    words += ["--accuracy-class", "0.1"]
+    words += ["--accuracy-class", "0.1", *FAST_WORDS]
     assert main(["deliver", "drone-site", str(scene[1]), str(tmp_path / "out"), *words]) == 0
     rows = capsys.readouterr().out.splitlines()[1:]
     titles = [row[:11].rstrip() for row in rows]
@@ -767,7 +768,7 @@ def test_water_and_lines_of_the_user_are_delivered_with_their_heights(scene, tmp
     dyke = line((5.0, 45.0, 107.0), (12.0, 45.0, 107.5))
     edge = line((55.0, 50.0, np.nan), (75.0, 50.0, np.nan))
     water = lake, river, square(400.0, 0.0, 410.0, 10.0)
-    how = {"delivery": "flood", "method": "slope", "hold_out_share": None}
+    how = {**QUICK, "delivery": "flood", "dtm_cell_size": 1.0}
     summary = deliver(
         scene[1 if is_one else 2], tmp_path / "out", water=water, rivers=(along_river,),
         breaklines=(dyke, edge), **how,

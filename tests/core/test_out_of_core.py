@@ -12,7 +12,7 @@ from conftest import Heard
 from fulldisks import TELLS, become_full
 from matrices import covering
 from realdata import real
-from runs import CancelAt, environment
+from runs import FAST, CancelAt, environment
 
 import bare_earth
 from bare_earth import BareEarthError, Cancelled
@@ -21,7 +21,8 @@ from bare_earth.algorithms.engine.blocks import Blocks
 from bare_earth.algorithms.las import copc, copc_octree, copc_points, reading
 from bare_earth.algorithms.tools.ground import step
 
-METHODS = "tin-densification", "grid-minimum", "slope"
+# The methods, with the preset of few rules: those that are all the same in memory and on disk.
+METHODS = {"tin-densification": "lidar360", "grid-minimum": "paper", "slope": "whitebox"}
 # The least that can be given: 8,000 points do not fit.
 LITTLE = {"threads": 2, "memory": 0.001}
 MUCH = {"threads": 2, "memory": 4.0}
@@ -81,8 +82,9 @@ def run(source, folder, method, resources, rasters=(), **options):
     folder.mkdir()
     files = {name: folder / f"{name}.tif" for name in rasters}
     summary = bare_earth.classify(
-        source, folder / "out.laz", method=method, **resources, **files, **options
-    )
+        source, folder / "out.laz", method=method, preset=METHODS[method], **resources, **files,
+        **options,
+    )  # fmt: skip
     return summary, {path.name: path.read_bytes() for path in folder.iterdir()}
 
 
@@ -157,7 +159,7 @@ def test_heights_above_ground_in_memory_and_on_disk(small, tmp_path, monkeypatch
 # Stray points
 
 
-@pytest.mark.parametrize(("method", "size"), covering(METHODS, list(SIZES)))
+@pytest.mark.parametrize(("method", "size"), covering(list(METHODS), list(SIZES)))
 def test_a_stray_point_far_away_stops_nothing(method, size, tmp_path):
     source = write(tmp_path / "in.las", 8000, stray=(1e6, 1e6, 1e6))
     summary, _ = run(source, tmp_path / "out", method, SIZES[size])
@@ -177,7 +179,7 @@ def test_a_copc_file_is_made_of_points_that_do_not_fit(small, small_nodes, kind,
     source, sorted_on_disk = write(tmp_path / f"in.{kind}"), []
     for size, resources in SIZES.items():
         copc_file = tmp_path / f"{size}.copc.laz"
-        bare_earth.classify(source, copc_file, method="grid-minimum", **resources)
+        bare_earth.classify(source, copc_file, method="grid-minimum", preset="paper", **resources)
         bare_earth.heights(copc_file, tmp_path / f"height-{copc_file.name}", **resources)
         sorted_on_disk.append(len(small_nodes))
     assert sorted_on_disk[0] == 0 < sorted_on_disk[1]
@@ -192,9 +194,9 @@ def test_a_copc_file_is_made_of_points_that_do_not_fit(small, small_nodes, kind,
 
 def test_a_copc_file_stays_one_though_it_does_not_fit(tmp_path):
     plain, source = write(tmp_path / "in.las", 8000), tmp_path / "in.copc.laz"
-    bare_earth.classify(plain, source, method="slope")
+    bare_earth.classify(plain, source, **FAST)
     for size, resources in SIZES.items():
-        bare_earth.classify(source, tmp_path / f"{size}.copc.laz", method="slope", **resources)
+        bare_earth.classify(source, tmp_path / f"{size}.copc.laz", **FAST, **resources)
     much, little = (tmp_path / f"{size}.copc.laz" for size in SIZES)
     assert much.read_bytes() == little.read_bytes()
     assert bare_earth.info(little).encoding == "COPC"

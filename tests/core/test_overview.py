@@ -5,6 +5,7 @@ import json
 import laspy
 import numpy as np
 import pytest
+from runs import FAST
 
 import bare_earth
 from bare_earth import BareEarthError
@@ -43,7 +44,7 @@ def tiles(tmp_path):
 
 
 def classify(tiles, folder, kind="copc.laz", overview=True):
-    return bare_earth.classify(tiles, folder, format=kind, overview=overview)
+    return bare_earth.classify(tiles, folder, format=kind, overview=overview, **FAST)
 
 
 def assets_of(vpc):
@@ -118,7 +119,7 @@ def test_files_of_different_kinds_share_one(tmp_path):
         raw = tmp_path / f"{number}.las"
         write_tile(raw, 500_000.0 + number * SIDE, point_format, scale, extra)
         files.append(tmp_path / f"{number}.copc.laz")
-        bare_earth.classify(raw, files[-1], method="slope")
+        bare_earth.classify(raw, files[-1], **FAST)
     write_vpc(tmp_path / "a.vpc", files, overview=True)
     sample = laspy.read(tmp_path / "a-overview.copc.laz")
     assert sample.header.point_format.id == 6
@@ -133,7 +134,7 @@ def test_files_of_different_kinds_share_one(tmp_path):
 def test_a_file_with_its_name_is_not_overwritten(tmp_path):
     write_tile(tmp_path / "raw.las", 500_000.0)
     mine = tmp_path / "a-overview.copc.laz"
-    bare_earth.classify(tmp_path / "raw.las", mine, method="slope")
+    bare_earth.classify(tmp_path / "raw.las", mine, **FAST)
     before = mine.read_bytes()
     write_vpc(tmp_path / "a.vpc", [mine], overview=True)
     assert mine.read_bytes() == before and list(assets_of(tmp_path / "a.vpc")[0]) == ["data"]

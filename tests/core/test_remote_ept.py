@@ -1,5 +1,6 @@
 """Parts of remote EPT data sets and of lists: the same points, or one sentence."""
 
+import functools
 import io
 import json
 
@@ -26,6 +27,7 @@ WKT = (
 MERCATOR = WKT.replace("ETRS89 / UTM zone 32N", "WGS 84 / Pseudo-Mercator").replace(
     "Transverse_Mercator", "Mercator_1SP"
 )
+CUBE = (500_000, 5_600_000, 0, 500_100, 5_600_100, 100)
 BOX = (500_020.0, 5_600_010.0, 500_060.0, 5_600_055.0)
 
 
@@ -87,14 +89,27 @@ def rows_of(points):
 
 def add_ept(server, name="set", point_format=1, srs=None, pages=True, kind="laszip"):
     """Put a data set of 3,000 points in 1 + 4 + 16 tiles on the server; return all points."""
-    random, cube = np.random.default_rng(3), (500_000, 5_600_000, 0, 500_100, 5_600_100, 100)
+    points, files = parts_of_ept(point_format, pages, kind)
+    for path, content in files.items():
+        server.add(f"{name}/{path}", content)
+    srs = {"wkt": WKT} if srs is None else srs
+    about = {"bounds": CUBE, "boundsConforming": CUBE, "dataType": kind, "span": 16, "srs": srs}
+    about["schema"] = SCHEMA
+    return points, server.add(f"{name}/ept.json", json.dumps(about).encode())
+
+
+@functools.cache
+def parts_of_ept(point_format, pages, kind):
+    """Return the points of a data set, and the contents of tiles and hierarchy by their paths."""
+    random, files = np.random.default_rng(3), {}
     points = np.column_stack((random.random((3000, 3)) * 100, random.integers(1, 7, 3000)))
     corner = np.array([500_000, 5_600_000, 0, 0])
     points = np.column_stack((np.round(points, 2) + corner, np.arange(3000)))
+    points.flags.writeable = False
     depths, hierarchy, branches = np.arange(3000) % 3, {}, {}
     for depth in range(3):
         side = 100 / 2**depth
-        cells = np.minimum((points[:, :3] - cube[:3]) // side, 2**depth - 1).astype(int)
+        cells = np.minimum((points[:, :3] - CUBE[:3]) // side, 2**depth - 1).astype(int)
         cells[:, 2] = 0
         some = points[depths == depth]
         for cell in np.unique(cells[depths == depth], axis=0):
@@ -103,12 +118,12 @@ def add_ept(server, name="set", point_format=1, srs=None, pages=True, kind="lasz
             # Offsets of tiles are theirs, not those of the description.
             offset = [500_000 + depth, 5_600_000, 0]
             if kind == "laszip":
-                server.add(f"{name}/ept-data/{key}.laz", tile_of(inside, point_format, offset))
+                files[f"ept-data/{key}.laz"] = tile_of(inside, point_format, offset)
             elif kind == "binary":
-                server.add(f"{name}/ept-data/{key}.bin", rows_of(inside))
+                files[f"ept-data/{key}.bin"] = rows_of(inside)
             else:
                 packed = pytest.importorskip("zstandard").compress(rows_of(inside))
-                server.add(f"{name}/ept-data/{key}.zst", packed)
+                files[f"ept-data/{key}.zst"] = packed
             if depth == 2 and pages:
                 above = "-".join(map(str, (1, *(cell // 2))))
                 branches.setdefault(above, {})[key] = len(inside)
@@ -116,12 +131,9 @@ def add_ept(server, name="set", point_format=1, srs=None, pages=True, kind="lasz
                 hierarchy[key] = len(inside)
     for key, below in branches.items():
         below[key], hierarchy[key] = hierarchy[key], -1
-        server.add(f"{name}/ept-hierarchy/{key}.json", json.dumps(below).encode())
-    server.add(f"{name}/ept-hierarchy/0-0-0-0.json", json.dumps(hierarchy).encode())
-    srs = {"wkt": WKT} if srs is None else srs
-    about = {"bounds": cube, "boundsConforming": cube, "dataType": kind, "span": 16, "srs": srs}
-    about["schema"] = SCHEMA
-    return points, server.add(f"{name}/ept.json", json.dumps(about).encode())
+        files[f"ept-hierarchy/{key}.json"] = json.dumps(below).encode()
+    files["ept-hierarchy/0-0-0-0.json"] = json.dumps(hierarchy).encode()
+    return points, files
 
 
 def table_of(path):

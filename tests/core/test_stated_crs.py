@@ -9,7 +9,7 @@ import pytest
 from conftest import Heard
 from matrices import quick
 from realdata import real
-from runs import said
+from runs import FAST_WORDS, said
 from surveys import cut, strip, write
 
 import bare_earth
@@ -91,7 +91,7 @@ def test_every_command_that_reads_points_takes_a_crs(feet, tmp_path):
     given = "--crs", "EPSG:2230"
     for words in (
         ("info", feet),
-        ("classify", feet, tmp_path / "classes.laz", "--dtm", tmp_path / "a.tif"),
+        ("classify", feet, tmp_path / "classes.laz", "--dtm", tmp_path / "a.tif", *FAST_WORDS),
         ("terrain", feet, "--dtm", tmp_path / "b.tif"),
         ("height", feet, tmp_path / "heights.laz"),
         ("key-points", feet, tmp_path / "keys.laz"),
@@ -126,14 +126,14 @@ def test_a_missing_crs_is_told_once(feet, tmp_path):
         las.x = las.x + shift
         las.write(str(tmp_path / f"{name}.laz"))
     one, both = (tmp_path / "a.laz",), (tmp_path / "a.laz", tmp_path / "b.laz")
-    page, settings = tmp_path / "page.html", ("--settings", "slope:town", "slope:automatic")
+    page, settings = tmp_path / "page.html", ("--settings", "slope:whitebox", "grid-minimum:paper")
     for words in (
         ("quality", *one),
         ("quality", *both),
         ("check", *one, "--hold-out", 0.02),
         ("compare-settings", *one, page, *settings, "--extent", *box),
         ("compare-settings", *both, page, *settings, "--extent", *box),
-        ("deliver", "survey", *one, tmp_path / "out"),
+        ("deliver", "survey", *one, tmp_path / "out", *FAST_WORDS),
     ):
         code, _, errors = said(*words)
         assert code == 0, errors
@@ -141,14 +141,14 @@ def test_a_missing_crs_is_told_once(feet, tmp_path):
 
 
 def test_written_clouds_keep_their_records(feet, tmp_path):
-    assert said("classify", feet, tmp_path / "out.laz", "--crs", "EPSG:2230")[0] == 0
+    assert said("classify", feet, tmp_path / "out.laz", "--crs", "EPSG:2230", *FAST_WORDS)[0] == 0
     assert laspy.read(tmp_path / "out.laz").header.parse_crs() is None
     las = laspy.read(feet)
     las.header.add_crs(pyproj.CRS.from_epsg(2231))
     las.write(tmp_path / "wrong.laz")
     for name in ("wrong-out.laz", "wrong-out.copc.laz"):
-        words = "classify", tmp_path / "wrong.laz", tmp_path / name, "--crs", "EPSG:2230"
-        assert said(*words)[0] == 0
+        words = tmp_path / "wrong.laz", tmp_path / name, "--crs", "EPSG:2230", *FAST_WORDS
+        assert said("classify", *words)[0] == 0
         assert bare_earth.info(tmp_path / name).epsg == 2231
 
 
@@ -172,7 +172,7 @@ def test_a_crs_that_is_given_is_as_one_that_the_file_states(feet, tmp_path):
     las.write(tmp_path / "stated.laz")
     classes = []
     for source, more in ((tmp_path / "stated.laz", ()), (feet, ("--crs", "EPSG:2230")), (feet, ())):
-        assert said("classify", source, tmp_path / "out.las", *more)[0] == 0
+        assert said("classify", source, tmp_path / "out.las", *more, *FAST_WORDS)[0] == 0
         classes.append(np.asarray(laspy.read(tmp_path / "out.las").classification))
     assert np.array_equal(classes[0], classes[1])
     assert not np.array_equal(classes[0], classes[2])
@@ -190,7 +190,7 @@ def test_many_files_are_as_one(tmp_path, options, threads_for_processes):
         (one, tmp_path / "out.las", rasters[0]),
         (many, tmp_path / "out", rasters[1]),
     ):
-        code, _, errors = said("classify", source, target, *given, *dtm)
+        code, _, errors = said("classify", source, target, *given, *dtm, *FAST_WORDS)
         assert code == 0, errors
     with rasterio.open(rasters[0][1]) as first, rasterio.open(rasters[1][1]) as second:
         assert first.profile == second.profile

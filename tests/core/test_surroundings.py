@@ -54,7 +54,7 @@ def test_the_spacing_is_that_of_the_points_that_are_not_thinned():
     assert spacing(left, 0.01) == pytest.approx(0.354, abs=0.001)
 
 
-def village(side=155.0, density=3.0):
+def village(side=112.0, density=3.0):
     random = np.random.default_rng(4)
     x, y = random.uniform(0.0, side, (2, int(density * side**2)))
     z = 60.0 + 3.0 * np.sin(x / 40.0) + 2.0 * np.sin(y / 25.0) + random.normal(0, 0.03, len(x))

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from conftest import Heard
 from realdata import real
+from runs import FAST
 
 import bare_earth
 from bare_earth import BareEarthError
@@ -133,7 +134,7 @@ def test_the_same_points_are_classified_in_a_boundary_of_any_crs(cloud, tmp_path
     path = geojson(tmp_path / "a.geojson", moved(CORNERS, "EPSG:4326"))
     las = laspy.read(cloud)
     inside = (las.x > HUT[0]) & (las.x < HUT[2]) & (las.y > HUT[1]) & (las.y < HUT[3])
-    summary = bare_earth.classify(cloud, tmp_path / "o.laz", boundary=path)
+    summary = bare_earth.classify(cloud, tmp_path / "o.laz", boundary=path, **FAST)
     assert summary.area_count == np.count_nonzero(inside) > 1000
 
 
@@ -142,7 +143,7 @@ def test_corrections_of_another_crs_give_their_class(cloud, tmp_path):
         geojson(tmp_path / "a.geojson", moved(CORNERS, "EPSG:4326"), **{"class": 6}),
         by_library(tmp_path / "a.gpkg", moved(CORNERS, "EPSG:25833"), "EPSG:25833", **{"class": 6}),
     ):
-        summary = bare_earth.classify(cloud, tmp_path / "o.laz", corrections=path)
+        summary = bare_earth.classify(cloud, tmp_path / "o.laz", corrections=path, **FAST)
         assert summary.class_counts[6] > 1000
 
 
