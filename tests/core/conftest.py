@@ -33,6 +33,11 @@ FORMATS = {0: (0, 1), 1: (0, 1), 2: range(4), 3: range(6), 4: range(11)}
 EVERY = [(version, point_format) for version, kinds in FORMATS.items() for point_format in kinds]
 # These begin first; and these share the code that they parse.
 SLOWEST = ("test_goldens.py", "test_deliveries.py", "test_tiles.py", "test_tutorials.py")
+# These test processes; elsewhere threads take their place.
+IN_PROCESSES = {
+    "test_blocks.py", "test_dask.py", "test_faults.py", "test_imports.py", "test_memory.py",
+    "test_rasters.py", "test_security.py", "test_tiles.py", "test_unpacking.py", "test_windows.py",
+}  # fmt: skip
 # What these find out does not depend on the Python that runs them, nor do the scenes of benchmarks.
 SAME_IN_ANY_PYTHON = {
     "test_coming_from.py", "test_demo.py", "test_docstrings.py", "test_goldens.py",
@@ -257,9 +262,18 @@ def pytest_collection_finish():
     gc.set_threshold(20_000)
 
 
+@pytest.fixture(autouse=True, scope="module")
+def threads_unless_processes_are_tested(request):
+    """Let runs work in threads: a process takes a second of two processors to begin."""
+    with pytest.MonkeyPatch.context() as patch:
+        if request.path.name not in IN_PROCESSES:
+            patch.setattr(workers, "Processes", workers.Threads)
+        yield
+
+
 @pytest.fixture
 def threads_for_processes(monkeypatch):
-    """Let a command work in threads: a process takes a second of two processors to begin."""
+    """Let one test of a module that tests processes work in threads."""
     monkeypatch.setattr(workers, "Processes", workers.Threads)
 
 

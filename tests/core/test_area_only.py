@@ -164,7 +164,7 @@ def test_the_area_alone_needs_an_area(inputs, tmp_path, capsys):
     assert not list(tmp_path.iterdir())
 
 
-def test_the_command_writes_the_area_alone(inputs, tmp_path, capsys, threads_for_processes):
+def test_the_command_writes_the_area_alone(inputs, tmp_path, capsys):
     boundary = tmp_path / "boundary.geojson"
     rings = [[*TRIANGLE.tolist(), TRIANGLE[0].tolist()]]
     boundary.write_text(json.dumps({"type": "Polygon", "coordinates": rings}))

@@ -92,7 +92,7 @@ def test_memory_and_squares_change_nothing(tmp_path, monkeypatch):
         assert (tmp_path / f"{name}.las").read_bytes() == (tmp_path / "one.las").read_bytes()
 
 
-def test_many_files_give_the_heights_of_one_and_go_on(tmp_path, threads_for_processes):
+def test_many_files_give_the_heights_of_one_and_go_on(tmp_path):
     (tmp_path / "in").mkdir()
     raster = dtm(tmp_path / "dtm.tif")
     for name, west, seed in (("a", 0.0, 1), ("b", 30.0, 2)):
@@ -133,7 +133,7 @@ def test_places_without_a_value_have_no_height_and_it_is_told(tmp_path):
 
 
 @pytest.mark.parametrize("many", [False, True])
-def test_a_raster_in_another_crs_is_refused(tmp_path, many, threads_for_processes):
+def test_a_raster_in_another_crs_is_refused(tmp_path, many):
     (tmp_path / "in").mkdir()
     source = points(tmp_path / "in" / "a.las")
     raster = dtm(tmp_path / "dtm.tif", epsg=25833)

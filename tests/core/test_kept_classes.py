@@ -65,7 +65,7 @@ def test_roads_on_the_ground_are_terrain_and_those_above_it_are_not(town, tmp_pa
 
 
 @pytest.mark.long
-def test_many_files_give_the_roads_of_one(town, tmp_path, threads_for_processes):
+def test_many_files_give_the_roads_of_one(town, tmp_path):
     for name in ("one", "many"):
         (tmp_path / name).mkdir()
     classify(town / "one.las", tmp_path / "one" / "out.las", **outputs(tmp_path / "one"))
@@ -102,7 +102,7 @@ def test_known_ground_that_keeps_its_class_is_ground_for_the_rasters(town, tmp_p
 
 
 @pytest.mark.parametrize("source", quick(["one.las", "many"], "one.las"))
-def test_water_stays_and_the_log_says_so(tmp_path, source, threads_for_processes):
+def test_water_stays_and_the_log_says_so(tmp_path, source):
     file, folder = real("field/water-class9.laz"), tmp_path / "many"
     folder.mkdir()
     las = laspy.read(file)

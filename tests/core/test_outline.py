@@ -7,7 +7,7 @@ import pickle
 import numpy as np
 import pytest
 from matrices import quick
-from runs import said
+from runs import FAST_WORDS, said
 from scipy import ndimage
 from scipy.spatial import cKDTree
 from surveys import ORIGIN, cut, write
@@ -163,9 +163,7 @@ def test_the_outermost_cells_of_tiles_on_a_slope_are_as_good_as_the_others(
 
 
 @pytest.mark.long
-def test_the_rasters_of_two_tiles_of_a_forest_have_sound_borders_and_no_seam(
-    tmp_path, threads_for_processes
-):
+def test_the_rasters_of_two_tiles_of_a_forest_have_sound_borders_and_no_seam(tmp_path):
     pytest.importorskip("lazrs")
     import laspy
     from realdata import real
@@ -182,7 +180,7 @@ def test_the_rasters_of_two_tiles_of_a_forest_have_sound_borders_and_no_seam(
         paths[number] = tmp_path / f"{number}.laz"
         near = las.points[np.abs(np.asarray(las.y) - middle) < 60.0].copy()
         laspy.LasData(las.header, near).write(paths[number])
-    assert said("classify", *paths, tmp_path / "out", "--dtm", dtm)[0] == 0
+    assert said("classify", *paths, tmp_path / "out", "--dtm", dtm, *FAST_WORDS)[0] == 0
     tiles = [laspy.read(path) for path in paths]
     corner = np.min([tile.header.mins for tile in tiles], axis=0)
     ground = [np.asarray(tile.xyz)[np.asarray(tile.classification) == 2] for tile in tiles]
@@ -342,7 +340,7 @@ def _in_l(x, y):
 def test_a_boundary_clips_the_rasters_of_classify(tmp_path, boundary, more):
     path, *_ = _cloud(tmp_path / "in", lambda x, y: x >= 0.0, trees=False)
     dtm, shade = tmp_path / "dtm.tif", tmp_path / "shade.tif"
-    words = ["--method", "slope", "--boundary", boundary, "--dtm", dtm, "--hillshade", shade]
+    words = [*FAST_WORDS, "--boundary", boundary, "--dtm", dtm, "--hillshade", shade]
     assert said("classify", path, tmp_path / "o.laz", *words, *more)[0] == 0
     for raster in (dtm, shade):
         values, x, y = _values(raster)
@@ -369,7 +367,7 @@ def test_the_terrain_command_takes_a_boundary_and_an_extent(tmp_path, boundary):
     assert code == 1 and "No point lies in the area" in errors
 
 
-def test_blocks_far_from_the_area_are_not_made_and_change_nothing(tmp_path, threads_for_processes):
+def test_blocks_far_from_the_area_are_not_made_and_change_nothing(tmp_path):
     path, _, integers, classes = _cloud(tmp_path / "in", lambda x, y: x >= 0.0)
     far = integers + np.array([900_000, 0, 0])
     write(tmp_path / "in" / "far.laz", far, classes=classes)
@@ -392,7 +390,7 @@ def test_classify_limits_the_edges_of_its_rasters(tmp_path):
     dtm = tmp_path / "dtm.tif"
     for more, is_filled in (([], True), (["--max-edge", "30"], False)):
         words = ["classify", path, tmp_path / "o.laz", "--dtm", dtm, "--dtm-cell-size", 2]
-        assert said(*words, "--method", "slope", *more)[0] == 0
+        assert said(*words, *FAST_WORDS, *more)[0] == 0
         values, x, y = _values(dtm)
         lake = np.hypot(x - 90.0, y - 200.0) < 30.0
         assert np.isfinite(values[lake]).all() == is_filled

@@ -453,7 +453,7 @@ def test_the_commands(tmp_path, capsys):
 
 
 @pytest.mark.parametrize("as_z", [False, True])
-def test_heights_of_many_files_are_those_of_one(tmp_path, as_z, threads_for_processes):
+def test_heights_of_many_files_are_those_of_one(tmp_path, as_z):
     points = strip(6000, 240.0, 120.0)
     ground = np.where(points[:, 2] % 10, 2, 1)
     write_strip(tmp_path / "one.laz", points, classes=ground)

@@ -128,7 +128,7 @@ def test_strips_and_files_make_no_seams(tmp_path, monkeypatch):
         assert np.array_equal(many[name], whole[name]), name
 
 
-def test_each_file_gets_its_part_of_the_pictures(tmp_path, threads_for_processes):
+def test_each_file_gets_its_part_of_the_pictures(tmp_path):
     for number in range(2):
         write(tmp_path / f"{number}.laz", 30.0 * number, 30.0 * number + 30)
     sources = [str(tmp_path / f"{number}.laz") for number in range(2)]

@@ -10,7 +10,7 @@ import laspy
 import numpy as np
 import pytest
 from remote_server import serving
-from runs import said
+from runs import FAST_WORDS, said
 from surveys import ORIGIN, strip, write, write_classified, write_points
 
 import bare_earth
@@ -184,16 +184,16 @@ def test_a_list_is_a_survey_of_what_lies_in_the_area(server, tiles, tmp_path):
     assert {path for path, *_ in server.asked} == {"all.vpc", tiles[0].name}
 
 
-def test_secrets_are_nowhere(server, tiles, tmp_path, threads_for_processes):
+def test_secrets_are_nowhere(server, tiles, tmp_path):
     address, said_all = add(server, tiles[0]), ""
     table = tmp_path / "dtm.tif"
     for words in (
-        ("classify", address, tmp_path / "out.laz", *EXTENT),
+        ("classify", address, tmp_path / "out.laz", *EXTENT, *FAST_WORDS),
         ("terrain", address, "--dtm", table, *EXTENT),
         ("info", address),
         ("info", address, "--json"),
         ("quality", address, "--page", tmp_path / "page.html"),
-        ("classify", address, tmp_path / "out", *EXTENT),
+        ("classify", address, tmp_path / "out", *EXTENT, *FAST_WORDS),
         ("classify", address, tmp_path / "out.laz", "--limit", "0", "--cache", tmp_path / "new"),
     ):
         code, *texts = said(*words, "--verbose")

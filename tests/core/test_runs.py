@@ -36,9 +36,7 @@ def _rows(paths, *names):
     return rows[np.lexsort(rows.T)]
 
 
-def test_classes_rasters_and_heights_of_many_files_in_one_go(
-    survey, tmp_path, threads_for_processes
-):
+def test_classes_rasters_and_heights_of_many_files_in_one_go(survey, tmp_path):
     words = ["--method", "slope", "--height-above-ground"]
     dtm, shade = tmp_path / "dtm.tif", tmp_path / "shade.tif"
     one = ["classify", str(survey), str(tmp_path / "out.laz"), "--dtm", str(tmp_path / "1.tif")]
@@ -92,9 +90,7 @@ def test_heights_go_on_where_a_run_ended(survey, tmp_path):
     assert [path.name for path in summary.tiles] == [path.name for path in finished(folder)]
 
 
-def test_key_points_of_many_files_are_as_good_as_those_of_one(
-    survey, tmp_path, threads_for_processes
-):
+def test_key_points_of_many_files_are_as_good_as_those_of_one(survey, tmp_path):
     bare_earth.classify(tmp_path / "in", tmp_path / "classified", **SLOPE)
     bare_earth.classify(survey, tmp_path / "classified.laz", **SLOPE)
     one = bare_earth.key_points(tmp_path / "classified.laz", tmp_path / "keys.laz")

@@ -181,7 +181,7 @@ def test_a_crs_that_is_given_is_as_one_that_the_file_states(feet, tmp_path):
 @pytest.mark.parametrize(
     "options", quick([(), ("--height-above-ground",)], ("--height-above-ground",))
 )
-def test_many_files_are_as_one(tmp_path, options, threads_for_processes):
+def test_many_files_are_as_one(tmp_path, options):
     integers = strip(6000, 150.0, 130.0)
     one, many = write(tmp_path / "in.las", integers), cut(tmp_path / "tiles", integers)
     given = "--crs", "EPSG:2230+5703", *options, "--method", "slope"

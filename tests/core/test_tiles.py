@@ -121,7 +121,7 @@ def test_real_tiles_get_the_labels_of_the_file_they_were_cut_from(name, tmp_path
     # In small blocks, and in those of the method, as a user runs both.
     for blocks in (Blocks(70.0, 50.0), None):
         for source, target in ((whole, tmp_path / "done.laz"), (folder, out)):
-            classify(source, target, blocks, method="tin-densification")
+            classify(source, target, blocks, method="tin-densification", preset="lidar360")
         found = points_of(finished(out))
         assert np.array_equal(found, points_of([tmp_path / "done.laz"]))
         assert 0.2 < np.mean(found[:, 3] == 2) < 0.98

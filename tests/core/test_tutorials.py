@@ -87,9 +87,7 @@ def error_in(drawn, delivery, scene):
 
 
 @pytest.mark.parametrize("job", quick(JOBS, "flood"))
-def test_a_tutorial_runs_and_says_what_comes_out(
-    job, pages, tmp_path, threads_for_processes, monkeypatch
-):
+def test_a_tutorial_runs_and_says_what_comes_out(job, pages, tmp_path, monkeypatch):
     page = (TUTORIALS / f"{job}.md").read_text(encoding="utf-8")
     jobs = importlib.import_module("demo.jobs")
     # The page makes its scene, which is also the truth here: once is enough.

@@ -182,7 +182,7 @@ def test_lines_outside_of_the_points_are_the_same_error(cloud, tmp_path, capsys,
     assert not list(tmp_path.glob("o.*"))
 
 
-def test_geometry_may_lie_in_one_of_many_files(tmp_path, threads_for_processes, capsys):
+def test_geometry_may_lie_in_one_of_many_files(tmp_path, capsys):
     for number in range(2):
         write(tmp_path / f"{number}.laz", 500.0 * number)
     near, far = (

@@ -136,7 +136,7 @@ def test_points_on_disk_get_the_same_classes(tmp_path):
     assert (tmp_path / "disk.laz").read_bytes() == (tmp_path / "memory.laz").read_bytes()
 
 
-def test_many_files_have_no_seams_and_go_on(tmp_path, threads_for_processes):
+def test_many_files_have_no_seams_and_go_on(tmp_path):
     (tmp_path / "in").mkdir()
     names = "a", "b", "c"
     for number, name in enumerate(names):

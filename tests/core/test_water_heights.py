@@ -47,7 +47,7 @@ def surveys(tmp_path_factory):
 
 @pytest.mark.parametrize(("kind", "is_one"), covering(WATERS, [True, False]))
 def test_each_cell_of_water_has_the_level_of_polygons_and_breaklines(
-    surveys, tmp_path, kind, is_one, threads_for_processes
+    surveys, tmp_path, kind, is_one
 ):
     source = surveys(kind)[0 if is_one else 1]
     water, lines = tmp_path / "water.gpkg", tmp_path / "lines.gpkg"
