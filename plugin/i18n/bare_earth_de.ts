@@ -288,6 +288,10 @@
         <translation>Klassifizierte Kacheln</translation>
     </message>
     <message>
+        <source>Classifies a raw point cloud, and makes everything that a job hands over.</source>
+        <translation>Klassifiziert eine rohe Punktwolke und erstellt alles, was ein Auftrag liefert.</translation>
+    </message>
+    <message>
         <source>Classify above ground</source>
         <translation>Über dem Boden klassifizieren</translation>
     </message>
@@ -986,10 +990,6 @@
     <message>
         <source>Made by Bare Earth with these settings:</source>
         <translation>Von Bare Earth mit diesen Einstellungen gemacht:</translation>
-    </message>
-    <message>
-        <source>Classifies a raw point cloud, and makes everything that a job hands over.</source>
-        <translation>Klassifiziert eine rohe Punktwolke und erstellt alles, was ein Auftrag liefert.</translation>
     </message>
     <message>
         <source>Makes terrain model, surface model, canopy height and hillshade of a point cloud.</source>

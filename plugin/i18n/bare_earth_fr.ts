@@ -288,6 +288,10 @@
         <translation>Dalles classées</translation>
     </message>
     <message>
+        <source>Classifies a raw point cloud, and makes everything that a job hands over.</source>
+        <translation>Classe un nuage de points brut et produit tout ce qu'un projet livre.</translation>
+    </message>
+    <message>
         <source>Classify above ground</source>
         <translation>Classer au-dessus du sol</translation>
     </message>
@@ -986,10 +990,6 @@
     <message>
         <source>Made by Bare Earth with these settings:</source>
         <translation>Produit par Bare Earth avec ces réglages :</translation>
-    </message>
-    <message>
-        <source>Classifies a raw point cloud, and makes everything that a job hands over.</source>
-        <translation>Classe un nuage de points brut et produit tout ce qu'un projet livre.</translation>
     </message>
     <message>
         <source>Makes terrain model, surface model, canopy height and hillshade of a point cloud.</source>
