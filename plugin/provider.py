@@ -3,21 +3,53 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any, Iterable
 
 from qgis.core import QgsProcessingProvider
 from qgis.PyQt.QtGui import QIcon
 
 from .. import __version__
-from ..algorithms.core.words import use_names
+from ..algorithms.core.words import Keywords, use_names
 from ..algorithms.survey.feature_files import FORMATS
+from .i18n import tr
 from .processing.compositions import CompositionAlgorithm
-from .processing.field_names import Fields
 from .processing.maps import map_algorithms
 from .processing.models import shipped_models
 from .processing.outputs import point_cloud_formats
 from .processing.tools import tool_algorithms
 
 ICON = Path(__file__).parent / "icons" / "bare_earth.svg"
+
+
+class Fields(Keywords):
+    """Names options and tools in messages by labels and titles, in the language of the user."""
+
+    reproject = "with 'Reproject' of the group Point cloud data management"
+
+    def __init__(self, algorithms: Iterable[Any]) -> None:
+        # By the command and the option; without a command, the first tool that has the option.
+        self._labels: dict[tuple[str, str], str] = {}
+        self._titles = {"clear-cache": tr("Remove downloaded point clouds")}  # in the menu
+        for algorithm in algorithms:
+            self._titles.setdefault(algorithm.command, algorithm.displayName())
+
+    def add_labels(self, algorithms: Iterable[Any]) -> None:
+        """Add the labels of algorithms, which have fields only when they are registered."""
+        for algorithm in algorithms:
+            for field in algorithm.parameterDefinitions():
+                for command in (algorithm.command, ""):
+                    key = command, field.name().lower()
+                    self._labels.setdefault(key, field.description())
+
+    def tool(self, command: str) -> str:
+        """Return the title of a tool."""
+        return f"'{self._titles.get(command, command)}'"
+
+    def option(self, name: str, value: Any, command: str) -> str:
+        """Return the label of a field, with its value unless it is a box to tick."""
+        text = f"'{self._labels.get((command, name), name)}'"
+        text += f" ({value})" if value not in (None, True) else ""
+        return f"{text} of {self.tool(command)}" if command else text
 
 
 class BareEarthProvider(QgsProcessingProvider):
