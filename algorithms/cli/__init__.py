@@ -95,12 +95,12 @@ def _set_output_encoding() -> None:
 
 
 def _say(
-    what: object, code: int, arguments: Sequence[str], error: BaseException | None = None
+    problem: object, code: int, arguments: Sequence[str], error: BaseException | None = None
 ) -> int:
     """Print an error in one line; with --verbose, also the traceback."""
-    if "--verbose" in arguments and (error is not None or isinstance(what, BaseException)):
+    if "--verbose" in arguments and (error is not None or isinstance(problem, BaseException)):
         traceback.print_exc()
-    print(f"bare-earth: {what}", file=sys.stderr)
+    print(f"bare-earth: {problem}", file=sys.stderr)
     return code
 
 

@@ -28,9 +28,9 @@ class Command(NamedTuple):
 _NOT_USED = ("none", "automatic")
 
 
-def add_json(parser: argparse.ArgumentParser, what: str = "what was done ") -> None:
+def add_json(parser: argparse.ArgumentParser, result: str = "what was done ") -> None:
     """Add the option to print the result as JSON."""
-    parser.add_argument("--json", action="store_true", help=f"print {what}as JSON")
+    parser.add_argument("--json", action="store_true", help=f"print {result}as JSON")
 
 
 def add_parameters(

@@ -288,5 +288,5 @@ def _uncounted(layout: LasFile) -> OctreeError:
     return _octree_error(layout, "its numbers of points do not add up to that of the file")
 
 
-def _octree_error(layout: LasFile, what: str) -> OctreeError:
-    return OctreeError(f"The octree of {layout.path} is damaged: {what}.")
+def _octree_error(layout: LasFile, damage: str) -> OctreeError:
+    return OctreeError(f"The octree of {layout.path} is damaged: {damage}.")

@@ -146,13 +146,13 @@ def _size(descriptor: bytes) -> int:
 
 
 def _checked_kind(layout: LasFile, dimension: ExtraDimension, descriptor: bytes) -> np.dtype:
-    kinds, what = _KINDS, "neither float nor double"
+    kinds, lack = _KINDS, "neither float nor double"
     if dimension.values.dtype == np.uint8:
-        kinds, what = {_BYTE: "u1"}, "no byte"
+        kinds, lack = {_BYTE: "u1"}, "no byte"
     kind, options = descriptor[2], descriptor[3]
     if kind not in kinds or options & (_HAS_SCALE | _HAS_OFFSET):
         raise BareEarthError(
-            f"{layout.path} has an extra dimension {dimension.name} that is {what}. Remove or"
+            f"{layout.path} has an extra dimension {dimension.name} that is {lack}. Remove or"
             " rename it first."
         )
     return np.dtype(kinds[kind])

@@ -34,15 +34,15 @@ _BLOCK = 1 << 24
 _LARGEST_LEGACY_CLASS = 31
 
 
-def check_class(path: object, point_format: int, value: int, what: str) -> None:
-    """Refuse a class that does not fit into the point format of a file; `what` it is for, such as
-    "the ground", is part of the error.
+def check_class(path: object, point_format: int, value: int, use: str) -> None:
+    """Refuse a class that does not fit into the point format of a file; the error names its use,
+    such as "the ground".
     """
     # Formats 0 to 5 have five bits for the class.
     if point_format < FIRST_EXTENDED_FORMAT and value > _LARGEST_LEGACY_CLASS:
         raise BareEarthError(
             f"Point format {point_format} holds classes up to {_LARGEST_LEGACY_CLASS}, not {value}."
-            f" Choose another class for {what} of {path}."
+            f" Choose another class for {use} of {path}."
         )
 
 

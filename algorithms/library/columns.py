@@ -32,11 +32,11 @@ _RAW = {"bitfields", "rawclassification", "classificationflags"}
 _STORED = np.dtype(np.int32)
 
 
-def refuse_beside(values: SimpleNamespace, what: str, names: Iterable[str]) -> None:
+def refuse_beside(values: SimpleNamespace, owner: str, names: Iterable[str]) -> None:
     """Refuse columns that are given twice."""
     for name in names:
         if getattr(values, name) is not None:
-            raise BareEarthError(f"{what} its own {name}: leave the argument {name} out.")
+            raise BareEarthError(f"{owner} its own {name}: leave the argument {name} out.")
 
 
 def is_record(points: Any) -> bool:

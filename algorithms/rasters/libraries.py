@@ -11,12 +11,12 @@ from ..core.temporary import shown
 
 
 def library(
-    by_gdal: Callable[..., Any], by_rasterio: Callable[..., Any], what: str
+    by_gdal: Callable[..., Any], by_rasterio: Callable[..., Any], task: str
 ) -> Callable[..., Any]:
     """Return the function for the installed library: GDAL first, for QGIS."""
     for name in library_name():
         return by_gdal if name == "osgeo" else by_rasterio
-    raise BareEarthError(f"{what} a raster needs rasterio: pip install rasterio.")
+    raise BareEarthError(f"{task} a raster needs rasterio: pip install rasterio.")
 
 
 def library_name() -> list[str]:
@@ -30,8 +30,8 @@ class GdalErrors:
     "read" or "write".
     """
 
-    def __init__(self, gdal: Any, what: str) -> None:
-        self._gdal, self._what = gdal, what
+    def __init__(self, gdal: Any, task: str) -> None:
+        self._gdal, self._task = gdal, task
         self._texts: list[str] = []
 
     def __enter__(self) -> GdalErrors:
@@ -41,7 +41,7 @@ class GdalErrors:
     def __exit__(self, kind: object, error: BaseException | None, trace: object) -> None:
         self._gdal.PopErrorHandler()
         if isinstance(error, RuntimeError):  # the application made GDAL raise its errors
-            raise BareEarthError(f"Cannot {self._what} the raster: {shown(error)}") from error
+            raise BareEarthError(f"Cannot {self._task} the raster: {shown(error)}") from error
 
     def _receive(self, severity: int, number: int, text: str) -> None:
         if severity >= self._gdal.CE_Failure:
@@ -55,4 +55,4 @@ class GdalErrors:
         """Raise the first error, if there was one."""
         if self._texts:
             reason = shown(self._texts[0]).rstrip(".")
-            raise BareEarthError(f"Cannot {self._what} {shown(path)}: {reason}.")
+            raise BareEarthError(f"Cannot {self._task} {shown(path)}: {reason}.")

@@ -221,10 +221,10 @@ def _is_same(known: State, state: State) -> bool:
     return known.size == state.size and all(a == b for a, b in pairs if a and b)
 
 
-def _not_asked(address: str, what: str) -> BareEarthError:
+def _not_asked(address: str, found: str) -> BareEarthError:
     return BareEarthError(
         f"{host_of(address)} answers with something else than was asked for of {shown(address)}:"
-        f" {what}. Ask who runs the server, or download what you need with a browser."
+        f" {found}. Ask who runs the server, or download what you need with a browser."
     )
 
 

@@ -68,7 +68,7 @@ class Kept:
     def __init__(self, cloud: Cloud, wanted: Wanted, cache: Path, transfers: Transfers) -> None:
         self.address, self._wanted, self._transfers = cloud.address, wanted, transfers
         area = wanted.area.key if isinstance(wanted.area, Surroundings) else ""
-        self.name, ending, what = name_of(cloud.address), SUFFIX, f"{area} {wanted.resolution}"
+        self.name, ending, part = name_of(cloud.address), SUFFIX, f"{area} {wanted.resolution}"
         self._file: RemoteFile | None = None
         self._is_certain = True
         # One request, which tells the version.
@@ -81,11 +81,11 @@ class Kept:
             version, self._is_certain = str(self._file.version), self._file.version.is_certain
             if not self._file.is_copc:
                 # All of it serves any area.
-                what, ending = "all", ".las" if self.name.lower().endswith(".las") else ".laz"
+                part, ending = "all", ".las" if self.name.lower().endswith(".las") else ".laz"
         # Signatures differ from run to run, and belong into no file.
         folder = cache / _digest(shown(cloud.address)) / _digest(version)
         name = names_of([self.name])[0].replace(SUFFIX, ending)
-        self.waiting, self.path = folder / "parts", folder / _digest(what) / name
+        self.waiting, self.path = folder / "parts", folder / _digest(part) / name
         self._lock = self.path.with_name("lock")
         _make_private(self.path.parent, cache)
         self.is_here = self._is_certain and self._is_sound()

@@ -54,7 +54,7 @@ class Geometry:
 
 def located(
     shapes: Sequence[Any],
-    what: str,
+    words: str,
     place: Place,
     progress: Progress = SILENT,
     near: float | None = None,
@@ -75,18 +75,18 @@ def located(
         touches = (boxes[:, 0] <= east + reach) & (boxes[:, 2] >= west - reach)
         touches &= (boxes[:, 1] <= north + reach) & (boxes[:, 3] >= south - reach)
         if not touches.any():
-            raise outside(what, box_round(boxes), place.name, place.box, near)
+            raise outside(words, box_round(boxes), place.name, place.box, near)
     return found
 
 
-def outside(what: str, bounds: Box, of: str, box: Box, near: float | None = None) -> Outside:
-    """Return the error for geometry (`what`) that lies outside of the points (`of` a file or
+def outside(words: str, bounds: Box, of: str, box: Box, near: float | None = None) -> Outside:
+    """Return the error for geometry (`words`) that lies outside of the points (`of` a file or
     files), or farther than `near` metres.
     """
     lies = "in" if near is None else f"within {near:g} m of"
     return Outside(
-        f"No point of {of} lies {lies} {what} ({box_in_words(bounds)}): the points lie"
-        f" in {box_in_words(box)}. Give {what} in the CRS of the points."
+        f"No point of {of} lies {lies} {words} ({box_in_words(bounds)}): the points lie"
+        f" in {box_in_words(box)}. Give {words} in the CRS of the points."
     )
 
 

@@ -22,10 +22,10 @@ if TYPE_CHECKING:
 _VERTICES_A_BLOCK = 6_000
 # Width of the margin that is triangulated with a block, as a share of the block's longer side.
 _MARGIN = 0.03
-# Most triangulations of the vertices round the queries that blocks leave, and of those after which
-# vertices that were added for others go again. A few are enough, unless rounding makes the search
-# endless.
-_MOST_STEPS, _FIRST_STEPS = 1000, 10
+# Most triangulations of the vertices round the queries that blocks leave. A few are enough, unless
+# rounding makes the search endless.
+_MOST_STEPS = 1000
+_FIRST_STEPS = 10  # in these, vertices that were added for others go again
 # Rounding error in metres of a query on the hull.
 _ON_HULL = 1e-6
 # Rounding: a vertex counts as on a circle if its power, squared metres, is less than this share of

@@ -163,8 +163,8 @@ class ClassifyWater(PointStep):
     def check_tile(self, tile: LasFile | PointCloud) -> None:
         """Refuse a file whose points cannot hold the classes."""
         how = self.parameters
-        for value, what in ((how.water_class, "water"), (how.ignored_class, "ignored ground")):
-            check_class(tile.path, tile.point_format, value, what)
+        for value, use in ((how.water_class, "water"), (how.ignored_class, "ignored ground")):
+            check_class(tile.path, tile.point_format, value, use)
 
     def applied(self, part: PointCloud, values: np.ndarray) -> PointCloud:
         """Return points with their classes; the values are not used."""

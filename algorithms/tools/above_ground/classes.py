@@ -38,11 +38,11 @@ _SCHEMES = {
 _ROUNDING = 1e-6
 
 
-def _limit(default: float, which: str, help: str) -> Any:
+def _limit(default: float, kind: str, help: str) -> Any:
     """Declare a height at which vegetation begins."""
     return parameter(
         default,
-        label=f"Height at which {which} vegetation begins",
+        label=f"Height at which {kind} vegetation begins",
         unit="m",
         minimum=0.0,
         maximum=100.0,

@@ -47,8 +47,8 @@ class Constraints(Geometry):
         """Return the constraints in the CRS of the points."""
         found = Constraints(
             **{
-                name: located(getattr(self, name), what, place, progress, near)
-                for name, (what, near) in _GIVEN.items()
+                name: located(getattr(self, name), words, place, progress, near)
+                for name, (words, near) in _GIVEN.items()
             }
         )
         dry = found._dry_rivers(STATION / place.crs.horizontal_unit)
