@@ -33,10 +33,10 @@ FORMATS = {0: (0, 1), 1: (0, 1), 2: range(4), 3: range(6), 4: range(11)}
 EVERY = [(version, point_format) for version, kinds in FORMATS.items() for point_format in kinds]
 # These begin first; and these share the code that they parse.
 SLOWEST = ("test_goldens.py", "test_deliveries.py", "test_tiles.py", "test_tutorials.py")
-# These test processes; elsewhere threads take their place.
+# These let runs start processes; in others, threads work unless a test makes processes itself.
 IN_PROCESSES = {
     "test_blocks.py", "test_dask.py", "test_faults.py", "test_imports.py", "test_memory.py",
-    "test_rasters.py", "test_security.py", "test_tiles.py", "test_unpacking.py", "test_windows.py",
+    "test_rasters.py", "test_security.py", "test_unpacking.py", "test_windows.py",
 }  # fmt: skip
 # What these find out does not depend on the Python that runs them, nor do the scenes of benchmarks.
 SAME_IN_ANY_PYTHON = {

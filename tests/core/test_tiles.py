@@ -32,6 +32,7 @@ from surveys import (
 import bare_earth
 from bare_earth import BareEarthError, Cancelled, Progress
 from bare_earth.algorithms.cli import main
+from bare_earth.algorithms.engine import workers as workers_module
 from bare_earth.algorithms.engine.block_grid import BlockGrid, BlockIndex, grouped
 from bare_earth.algorithms.engine.blocks import Blocks
 from bare_earth.algorithms.engine.disk_store import DiskStore
@@ -417,9 +418,7 @@ def test_a_killed_run_goes_on_and_gives_the_same_bytes(number, many, out):
 # What goes wrong
 
 
-def test_broken_tiles_are_told_at_the_end_and_the_others_done(
-    six, out, las, capsys, threads_for_processes
-):
+def test_broken_tiles_are_told_at_the_end_and_the_others_done(six, out, las, capsys):
     data = (six / "1.laz").read_bytes()
     (six / "1.laz").write_bytes(data[:900] + bytes(300) + data[1200:])
     (six / "9.laz").write_bytes(b"no cloud")
@@ -568,6 +567,7 @@ def test_one_block_is_worked_off_in_this_process(six, tmp_path, monkeypatch):
         raise OSError("no other process is allowed")
 
     monkeypatch.setattr(Processes, "start", refuse)
+    monkeypatch.setattr(workers_module, "Processes", Processes)  # not threads, as elsewhere here
     local = Local(Resources(threads=2))
     blocks = Blocks(200.0, 5.0, start=-20.0)
     done = classify_tiles([six], tmp_path / "one", FAST, workers=local, blocks=blocks).done_count
