@@ -4,7 +4,8 @@ Each rule is left out of its pipeline, alone and in groups (`benchmarks/rules.py
 samples in some phases of the grid and on the real tiles. On all tiles the terrain model counts,
 with its spikes and pits, and on those whose labels are trusted the labels as well. What a rule
 protects and what it takes of plain things (`benchmarks/plain.py`) is counted as well: rows that are
-held only with it, and only without it. `--on plain --quick --rules low-groups` does only that.
+held only with it, and only without it. `--on plain --quick --rules low-groups` does only that. A
+rule with another value can be measured as well: `--rules "shrubs.most_open=0.9"`.
 
 What has been measured is kept in ~/.cache/bare-earth/benchmarks (or $BARE_EARTH_CACHE) until a
 filter, a grid or the data change, so that a run that was stopped goes on where it stopped.
@@ -223,7 +224,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     for method in options.method:
         chosen = tuple(
             name for name in variants(method) if name in (BASE, *(options.rules or [name]))
-        )
+        ) + tuple(name for name in options.rules if "=" in name)
         jobs = [Job(method, place, chosen, options.kept) for place in everywhere]
         results[method] = {}
         for job, found in zip(jobs, work.side_by_side(run, jobs)):

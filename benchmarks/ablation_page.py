@@ -146,7 +146,7 @@ def table(places: Places, method: str) -> list[str]:
             *(_summed(places, name, figure) for figure in ("spikes", "pits")),
             *(_counted(places, name, figure) for figure in ("protects", "takes")),
         ]
-        for name in variants(method)
+        for name in (*variants(method), *sorted(name for name in known if "=" in name))
         if name in known and name != BASE
     ]
     return tables.table(_HEAD, rows)

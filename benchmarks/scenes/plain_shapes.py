@@ -137,6 +137,12 @@ def mound(u, v, width, height):
     return -bowl(u, v, width, height)
 
 
+def butte(u, v, width, height):
+    """A table mountain whose sides take metres to fall."""
+    bend = 0.05 * width * np.sin(3.0 * np.arctan2(v, u))
+    return height * _trapezoid(np.hypot(u, v) + bend, width - 3.0, 3.0)
+
+
 def heap(u, v, width, height):
     return -funnel(u, v, width, height)
 

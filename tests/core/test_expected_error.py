@@ -21,6 +21,7 @@ from bare_earth.algorithms.grids.expected_error import (
     share_over,
     spread_of,
 )
+from bare_earth.algorithms.tools.ground.looks import looks_of
 from benchmarks.clouds import classify_cloud
 from benchmarks.expected_error import Seen, auc, compared, fitted, score, with_looks
 from benchmarks.scenes import make
@@ -215,6 +216,15 @@ def test_several_looks_need_an_expected_error(looked_at, tmp_path):
         bare_earth.classify(looked_at[0], tmp_path / "a.laz", looks=5)
     with pytest.raises(BareEarthError, match="must be one of 1, 5, not 3"):
         bare_earth.classify(looked_at[0], tmp_path / "a.laz", looks=3)
+
+
+def test_the_filters_of_all_looks_have_the_preset():
+    parameters = METHODS["slope"].parameters(preset="site", ground_tolerance=0.4)
+    looks = list(looks_of(parameters))
+    assert [look.parameters.preset for look in looks] == ["site"] * 4
+    assert {look.parameters.ground_tolerance for look in looks} == {0.4}
+    classic = METHODS["slope"].parameters(preset="whitebox")
+    assert [look.parameters.preset for look in looks_of(classic)][2:] == ["automatic"] * 2
 
 
 def test_the_fit_of_looks_finds_that_spread_tells_the_error():

@@ -36,6 +36,7 @@ class HeightSteps:
 
     def __init__(self, grid: HeightGrid, inside: np.ndarray) -> None:
         size, surface = grid.size, grid.filled(_RELAXATIONS).astype(np.float32)
+        self._known_heights = grid.values
         self._trend = Trend(surface, size, grid.origin)
         self._size, self._step = size, max(round(_STEP / size), 1)
         # A frame without heights round the grid, so that each neighbour is at a fixed offset.
@@ -76,7 +77,7 @@ class HeightSteps:
         flat[cells] = own.ravel()[cells] + count
         count += more + 1
         border = self._border(flat, count, steps)
-        return Regions(self._unframed(regions), border, self._size, self._step)
+        return Regions(self._unframed(regions), border, self._size, self._step, self._known_heights)
 
     def pits(self, candidates: np.ndarray, threshold: float, max_size: float) -> np.ndarray:
         """Return the cells of patches of candidates, at most `max_size` metres wide, that lie below
@@ -87,7 +88,9 @@ class HeightSteps:
         patches, count = ndimage.label(np.pad(candidates, self._step), np.ones((3, 3)))
         patches[(patches == 0) & self._inside] = count + 1
         border = self._border(patches.ravel(), count + 2, *self._steps(threshold))
-        patches = Regions(self._unframed(patches), border, self._size, self._step)
+        patches = Regions(
+            self._unframed(patches), border, self._size, self._step, self._known_heights
+        )
         return patches.sunken(max_size) & candidates
 
     def regrown(self, kept: np.ndarray, heights: np.ndarray, threshold: float) -> np.ndarray:

@@ -53,7 +53,7 @@ class LowGroups(PointRule):
     # farther than this multiple of the usual distance to the nearest among them. A group that
     # spreads less, as a multiple of the same, shows nothing of this, and must be parted from the
     # plane by a gap in height, as a share of its depth.
-    nearest: float = 1.3
+    nearest: float = 1.65
     spread: float = 2.0
     gap: float = 0.6
 

@@ -77,6 +77,9 @@ class RaisedObjects(GridRule):
     # a mean of at least the last of `heights`, and no ramp leads to it. Banks are not so steep.
     sheer_shares: tuple[float, float] = (0.85, 0.75)
     ramp: float = 5.0  # least width of a ramp in metres
+    # Least share of the height of a wide object's sides that falls at once: those of a table
+    # mountain take some metres. 0 for any sides.
+    wall: float = 0.88
     narrow_pits: NarrowPits | None = NarrowPits()
 
     def apply(self, grid: GridState, progress: Progress = SILENT) -> None:
@@ -133,18 +136,22 @@ class RaisedObjects(GridRule):
         if self.plateau_height is not None:
             regions = HeightSteps(rest, inside).regions(self.plateau_height)
             plateaus |= self.plateaus_of(regions)
-            roofs = regions.bounded(self.max_size, *self.sheer_shares, height=self.heights[-1])
+            roofs = regions.bounded(
+                self.max_size, *self.sheer_shares, height=self.heights[-1], wall=self.wall
+            )
             if roofs.any():
                 objects |= regions.without_ramps(roofs, self.ramp)
         return Objects(objects, plateaus & ~objects)
 
     def bounded(self, regions: Regions) -> np.ndarray:
         """Return the cells of the regions that are objects."""
-        return regions.bounded(self.max_size, self.share, self.whole_share, self.steepness)
+        return regions.bounded(
+            self.max_size, self.share, self.whole_share, self.steepness, wall=self.wall
+        )
 
     def plateaus_of(self, regions: Regions) -> np.ndarray:
         """Return the cells of the regions that drop all round, also of those that drop little."""
-        return regions.bounded(self.max_size, self.share, self.whole_share)
+        return regions.bounded(self.max_size, self.share, self.whole_share, wall=self.wall)
 
 
 @dataclass(frozen=True)

@@ -16,6 +16,10 @@ from ..state import GridState
 _PIT_SHARE = 0.9
 # Rounds in which regions that others hid are tested again.
 _ROUNDS = 3
+# Wider regions, in metres, must have walls. A wall falls within the first of these distances in
+# metres, and is compared with the fall within the second.
+_WIDE = 25.0
+_SIDES = 2.0, 6.0
 # Metres from the mean of two opposite neighbours within which a cell is even.
 _BEND = 0.15
 # Regions of the first and of the second cell of pairs of cells; -1 for cells that are not raised.
@@ -78,8 +82,10 @@ class Regions:
     # `number`: int32 (rows, columns): The region of each cell; 0 where nothing is known.
     # `width`: float (count,): Width (shorter side) of each region in metres.
 
-    def __init__(self, number: np.ndarray, border: Border, size: float, step: int) -> None:
-        self.number = number
+    def __init__(
+        self, number: np.ndarray, border: Border, size: float, step: int, heights: np.ndarray
+    ) -> None:
+        self.number, self._heights = number, heights
         self._border, self._size, self._frame = border, size, step
         area = np.bincount(number.ravel(), minlength=border.regions)
         self.width = _shorter_side(area, border.length() / step) * size
@@ -91,12 +97,13 @@ class Regions:
         whole_share: float,
         steepness: float = 0.0,
         height: float = 0.0,
+        wall: float = 0.0,
     ) -> np.ndarray:
         """Return the cells of regions of at most some width (the shorter side) in metres, of whose
         known and whole border such shares drop, by a mean of `height` metres or more, and of
-        `steepness` times the width.
+        `steepness` times the width; of wide ones those whose sides are walls by a share.
         """
-        return self._bounded(max_size, 1, share, whole_share, steepness, height)
+        return self._bounded(max_size, 1, share, whole_share, steepness, height, wall)
 
     def without_ramps(self, found: np.ndarray, width: float) -> np.ndarray:
         """Return the cells of those regions whose border is nowhere level over `width` metres in
@@ -134,6 +141,7 @@ class Regions:
         least_share: float,
         least_steepness: float = 0.0,
         least_height: float = 0.0,
+        least_wall: float = 0.0,
     ) -> np.ndarray:
         """Return the cells of regions bounded by drops (1) or rises (-1)."""
         # What one round finds is unknown in the next, which finds what it hid: a roof below a
@@ -146,10 +154,29 @@ class Regions:
             new = fits & ~found & (drops > 0)
             new &= height >= np.maximum(least_steepness * self.width, least_height)
             new &= (drops >= share * known) & (drops > least_share * pairs)
+            if least_wall > 0.0:
+                wide = np.flatnonzero(new & (self.width > _WIDE))
+                new[wide[self._walls(wide) < least_wall]] = False
             if not new.any():
                 break
             found |= new
         return found[self.number]
+
+    def _walls(self, wide: np.ndarray) -> np.ndarray:
+        """Return the median share of the sides of some regions that falls at once."""
+        from scipy import ndimage
+
+        if not len(wide):
+            return np.zeros(0)
+        number, heights = self.number, np.nan_to_num(self._heights, nan=np.inf)
+        at_once, all_ = (
+            heights - within_square(np.minimum, heights, max(round(reach / self._size), 1))
+            for reach in _SIDES
+        )
+        rim = within_square(np.minimum, number, 1) != within_square(np.maximum, number, 1)
+        rim &= np.isfinite(heights) & (all_ > 0.0)
+        share = np.divide(at_once, all_, out=np.ones(number.shape), where=rim)
+        return ndimage.median(share, np.where(rim, number, 0), wide)
 
 
 def _shorter_side(area: np.ndarray, perimeter: np.ndarray) -> np.ndarray:

@@ -50,18 +50,20 @@ class Look(NamedTuple):
 
 def looks_of(parameters: ParameterSet) -> Iterator[Look]:
     """Yield the looks beside that of a filter: two with other cells, and one by each other filter,
-    with the values that the user has changed and that it has as well.
+    with the preset and the values that the user has changed and that it has as well.
     """
     own = method_of(parameters)
     usual = vars(type(parameters)())
     changed = {name: value for name, value in vars(parameters).items() if value != usual[name]}
-    changed.pop("preset", None)
+    preset = changed.pop("preset", None)
     for shift in _SHIFTS:
         yield Look(own, parameters, shift)
     for method in METHODS.values():
         if method.name != own.name:
             names = {declared.name for declared in method.parameters().declarations()}
             values = {name: value for name, value in changed.items() if name in names}
+            if preset in method.presets:
+                values["preset"] = preset
             yield Look(method, method.parameters(**values), (0.0, 0.0))
 
 
