@@ -138,9 +138,10 @@ def mound(u, v, width, height):
 
 
 def butte(u, v, width, height):
-    """A table mountain whose sides take metres to fall."""
+    """A table mountain: rough, and its sides take metres to fall."""
     bend = 0.05 * width * np.sin(3.0 * np.arctan2(v, u))
-    return height * _trapezoid(np.hypot(u, v) + bend, width - 3.0, 3.0)
+    rough = 0.2 * np.sin(u * 1.3 + 0.7 * v) * np.sin(v * 1.1 - 0.4 * u)
+    return (height + rough) * _trapezoid(np.hypot(u, v) + bend, width - 3.0, 3.0)
 
 
 def heap(u, v, width, height):
@@ -226,6 +227,12 @@ def crop_rows(u, v, height, cover, apart):
     """Rows of a crop, whose cover is in percent."""
     on = np.abs(np.mod(v / apart, 1.0) - 0.5) < cover / 200.0
     return np.where(on, height, -np.inf)
+
+
+def aisled(u, v, length, width, eaves, aisle):
+    """A hall 6 m higher than the aisle that is all round it."""
+    nave = flat(u, v, length - 2.0 * aisle, width - 2.0 * aisle, 0.0)
+    return flat(u, v, length, width, eaves) + 6.0 * np.isfinite(nave)
 
 
 def drum(u, v, width, height):

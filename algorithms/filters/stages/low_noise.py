@@ -50,10 +50,12 @@ class LowGroups(PointRule):
     # Most heights beyond the group that are as low, as a share of those on the plane.
     most_beside: float = 0.0
     # Points of the ground lie above a group as densely as beside it: half of its points have one no
-    # farther than this multiple of the usual distance to the nearest among them. A group that
-    # spreads less, as a multiple of the same, shows nothing of this, and must be parted from the
-    # plane by a gap in height, as a share of its depth.
-    nearest: float = 1.65
+    # farther than this multiple of the usual distance to the nearest among them. Up to the second
+    # multiple it is doubtful, since a group may have a dozen points. A doubtful one, and one that
+    # spreads less, as a multiple of the same, must be parted from the plane by a gap in height, as
+    # a share of its depth.
+    nearest: float = 1.3
+    doubtful: float = 1.65
     spread: float = 2.0
     gap: float = 0.6
 
@@ -142,7 +144,9 @@ class LowGroups(PointRule):
             apart = np.median(tree.query(ground, 2)[0][:, 1])
             spread = np.median(np.hypot(*(low - np.median(low, axis=0)).T))
             if spread >= self.spread * apart:
-                return bool(np.median(tree.query(low)[0]) <= self.nearest * apart)
+                nearest = np.median(tree.query(low)[0])
+                if nearest <= self.nearest * apart or nearest > self.doubtful * apart:
+                    return bool(nearest <= self.nearest * apart)
         below = np.sort(np.append(group.above(points)[members], 0.0))
         return bool(np.diff(below).max() >= self.gap * -below[0])
 

@@ -16,10 +16,13 @@ from ..state import GridState
 _PIT_SHARE = 0.9
 # Rounds in which regions that others hid are tested again.
 _ROUNDS = 3
-# Wider regions, in metres, must have walls. A wall falls within the first of these distances in
+# Wider regions, in metres, may be table mountains. A wall falls within the first of these distances in
 # metres, and is compared with the fall within the second.
 _WIDE = 25.0
-_SIDES = 2.0, 6.0
+_SIDES = 2.0, 4.0
+# Metres from the mean of two opposite neighbours that half of the cells of a rough region are off,
+# at least: of roofs, without installations, they are 0.01 to 0.05 m off.
+_ROUGH = 0.08
 # Metres from the mean of two opposite neighbours within which a cell is even.
 _BEND = 0.15
 # Regions of the first and of the second cell of pairs of cells; -1 for cells that are not raised.
@@ -156,27 +159,33 @@ class Regions:
             new &= (drops >= share * known) & (drops > least_share * pairs)
             if least_wall > 0.0:
                 wide = np.flatnonzero(new & (self.width > _WIDE))
-                new[wide[self._walls(wide) < least_wall]] = False
+                new[wide[self._are_mountains(wide, least_wall)]] = False
             if not new.any():
                 break
             found |= new
         return found[self.number]
 
-    def _walls(self, wide: np.ndarray) -> np.ndarray:
-        """Return the median share of the sides of some regions that falls at once."""
+    def _are_mountains(self, wide: np.ndarray, wall: float) -> np.ndarray:
+        """Return which of some regions are rough, with sides that are no walls."""
         from scipy import ndimage
 
         if not len(wide):
-            return np.zeros(0)
-        number, heights = self.number, np.nan_to_num(self._heights, nan=np.inf)
+            return np.zeros(0, dtype=bool)
+        number, heights = self.number, self._heights
+        bend = np.full((2, *heights.shape), np.nan)
+        for of_axis, z in ((bend[0], heights), (bend[1].T, heights.T)):
+            of_axis[1:-1] = np.abs(z[2:] + z[:-2] - 2.0 * z[1:-1]) / 2.0
+        bend = np.fmax(*bend)
+        rough = ndimage.median(bend, np.where(np.isfinite(bend), number, 0), wide) >= _ROUGH
+        low = np.nan_to_num(heights, nan=np.inf)
         at_once, all_ = (
-            heights - within_square(np.minimum, heights, max(round(reach / self._size), 1))
+            low - within_square(np.minimum, low, max(round(reach / self._size), 1))
             for reach in _SIDES
         )
         rim = within_square(np.minimum, number, 1) != within_square(np.maximum, number, 1)
-        rim &= np.isfinite(heights) & (all_ > 0.0)
+        rim &= np.isfinite(low) & (all_ > 0.0)
         share = np.divide(at_once, all_, out=np.ones(number.shape), where=rim)
-        return ndimage.median(share, np.where(rim, number, 0), wide)
+        return rough & (ndimage.median(share, np.where(rim, number, 0), wide) < wall)
 
 
 def _shorter_side(area: np.ndarray, perimeter: np.ndarray) -> np.ndarray:
