@@ -97,12 +97,13 @@ def log():
     return Log()
 
 
-@pytest.fixture
-def qgis_process(tmp_path):
+@pytest.fixture(scope="session")
+def qgis_process(tmp_path_factory):
     """What runs qgis_process with some words, in a profile where the plugin is enabled."""
     # Debian 12 starts it by a script that adds an option which its QGIS does not know.
     program = shutil.which("qgis_process.bin") or shutil.which("qgis_process")
-    environment = {**os.environ, "HOME": str(tmp_path), "QGIS_CUSTOM_CONFIG_PATH": str(tmp_path)}
+    home = str(tmp_path_factory.mktemp("qgis_process"))
+    environment = {**os.environ, "HOME": home, "QGIS_CUSTOM_CONFIG_PATH": home}
 
     def run(*words):
         return subprocess.run([program, *words], capture_output=True, text=True, env=environment)

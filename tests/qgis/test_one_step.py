@@ -4,7 +4,6 @@ import json
 import os
 import shlex
 import shutil
-import subprocess
 
 import laspy
 import numpy as np
@@ -263,16 +262,10 @@ def test_it_is_the_first_of_the_toolbox(registry):
     assert first == [ALL_IN_ONE]
 
 
-def test_by_qgis_process(scene, tmp_path):
-    environment = {**os.environ, "HOME": str(tmp_path), "QGIS_CUSTOM_CONFIG_PATH": str(tmp_path)}
-    program = shutil.which("qgis_process.bin") or shutil.which("qgis_process")
-    subprocess.run([program, "plugins", "enable", "bare_earth"], env=environment, check=True)
+def test_by_qgis_process(scene, tmp_path, qgis_process):
     paths = {"INPUT": str(scene.path), "DTM": str(tmp_path / "d.tif"), "METHOD": "grid-minimum"}
     words = [f"{name}={value}" for name, value in paths.items()]
-    done = subprocess.run(
-        [program, "--json", "run", ALL_IN_ONE, "--", *words],
-        env=environment, capture_output=True, text=True,
-    )  # fmt: skip
+    done = qgis_process("--json", "run", ALL_IN_ONE, "--", *words)
     assert done.returncode == 0, done.stderr
     results = json.loads(done.stdout[done.stdout.index("{") :])["results"]
     assert results["DTM"] == paths["DTM"] and results["POINT_COUNT"] == scene.count

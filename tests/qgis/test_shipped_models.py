@@ -187,17 +187,20 @@ def test_their_layers_are_a_group_with_names_and_colours(
 
 
 @pytest.mark.parametrize("name", OUTPUTS)
-def test_their_outputs_are_known_before_a_run(name, registry, qgis_process):
-    """As `processing.algorithmHelp`, `qgis_process help` and the toolbox see them."""
+def test_their_outputs_are_known_before_a_run(name, registry):
+    """As `processing.algorithmHelp` and the toolbox see them."""
     registered = registry.algorithmById(f"bareearth:{name}")
     listed = {definition.name() for definition in registered.outputDefinitions()}
     assert set(OUTPUTS[name]) <= listed
     assert {
         definition.name() for definition in registered.destinationParameterDefinitions()
     } == set(OUTPUTS[name])
-    done = qgis_process("help", f"bareearth:{name}")
+
+
+def test_qgis_process_tells_their_outputs(qgis_process):
+    done = qgis_process("help", "bareearth:terraincontours")
     arguments, _, outputs = done.stdout.partition("Outputs")
-    for output in OUTPUTS[name]:
+    for output in OUTPUTS["terraincontours"]:
         assert output in arguments and output in outputs
 
 
