@@ -12,7 +12,7 @@ from ..core.errors import BareEarthError, Cancelled, FinishedFilesStay, UsageErr
 from ..core.imports import own_this_process
 from ..core.words import Flags, use_names
 from ..engine.memory import share_one_heap
-from ..tools.listing import COMPOSITIONS, FILE_TOOLS, POINT_TOOLS
+from ..tools.listing import COMPOSITIONS, FILE_TOOLS, MAP_TOOLS, POINT_TOOLS
 from .commands import tool_command
 from .options import DONE, FAILED, USAGE, Command
 
@@ -34,19 +34,13 @@ def _clear_cache(options: argparse.Namespace) -> int:
 
 
 _EMPTY = "Where the help says what an empty value means, give the word none for it."
-_COMMANDS = (
-    tool_command("classify"), tool_command("deliver"),
-    *map(tool_command, ("info", "assess", "check", "quality")),
-    *map(tool_command, ("remove-off-terrain-objects", "height", "above-ground", "key-points")),
-    *map(tool_command, ("terrain", "contours", "relief", "water", "water-classes")),
-    Command(
-        "clear-cache",
-        "Removes the parts of remote point clouds that runs have fetched and kept.",
-        "It tells how many bytes that were.",
-        _add_cache,
-        _clear_cache,
-    ),
-)  # fmt: skip
+_CLEAR_CACHE = Command(
+    "clear-cache",
+    "Removes the parts of remote point clouds that runs have fetched and kept.",
+    "It tells how many bytes that were.",
+    _add_cache,
+    _clear_cache,
+)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -117,13 +111,10 @@ def _parser(arguments: Sequence[str]) -> argparse.ArgumentParser:
     common.add_argument(
         "--verbose", action="store_true", help="print what is done, and where an error arose"
     )
-    names = {command.name for command in _COMMANDS}
-    further = (
-        tool_command(name)
-        for name in (*POINT_TOOLS, *FILE_TOOLS, *COMPOSITIONS)
-        if name not in names
-    )
-    for command in (*_COMMANDS, *further):
+    tools = {**MAP_TOOLS, **COMPOSITIONS, **POINT_TOOLS, **FILE_TOOLS}
+    # Those without a line are dialogs alone.
+    of_tools = (tool_command(name) for name, tool in tools.items() if tool.line)
+    for command in (*of_tools, _CLEAR_CACHE):
         options = commands.add_parser(
             command.name, parents=[common], help=command.line, epilog=_EMPTY,
             description=f"{command.line} {command.more}",

@@ -17,32 +17,27 @@ if TYPE_CHECKING:
 
 def point_tool(command: str) -> PointTool:
     """Return the declaration of a tool for points, given its command."""
-    tool: PointTool = _declared(POINT_TOOLS[command])
-    return tool
+    return _declared(POINT_TOOLS[command])
 
 
 def file_tool(command: str) -> FileTool:
     """Return the declaration of a tool for files, given its command."""
-    tool: FileTool = _declared(FILE_TOOLS[command])
-    return tool
+    return _declared(FILE_TOOLS[command])
 
 
 def map_tool(command: str) -> MapTool:
     """Return the declaration of a tool that makes rasters of points, given its command."""
-    tool: MapTool = _declared(MAP_TOOLS[command])
-    return tool
+    return _declared(MAP_TOOLS[command])
 
 
 def composition(command: str) -> Composition:
     """Return the declaration of tools that work one after another, given its command."""
-    tool: Composition = _declared(COMPOSITIONS[command])
-    return tool
+    return _declared(COMPOSITIONS[command])
 
 
 def any_tool(command: str) -> Tool:
     """Return the declaration of a tool of any kind, given its command."""
-    tool: Tool = _declared(listed(command))
-    return tool
+    return _declared(listed(command))
 
 
 def _declared(tool: Listed) -> Any:
