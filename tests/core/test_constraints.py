@@ -7,6 +7,7 @@ import laspy
 import numpy as np
 import pytest
 from conftest import Heard
+from runs import FAST, FAST_WORDS
 from surveys import ORIGIN, cut, heights_of, write_points
 
 from bare_earth import BareEarthError, classify, terrain
@@ -301,7 +302,7 @@ def test_a_run_that_classifies_makes_the_terrain_of_what_it_writes(tmp_path, how
     else:
         target = tmp_path / "out.laz"
     memory, progress = 0.001 if how == "parts" else None, las.Heard()
-    classify(source, target, method="slope", memory=memory, progress=progress, **once, **known)
+    classify(source, target, memory=memory, progress=progress, **FAST, **once, **known)
     assert any("do not fit into the memory" in text for text in progress.infos) == bool(memory)
     terrain(target, **again, **known)
     assert once["dtm"].read_bytes() == again["dtm"].read_bytes()
@@ -340,7 +341,7 @@ def test_the_terrain_command_takes_files_of_lines_and_polygons(wall, tmp_path, c
     assert np.array_equal(heights_of(tmp_path / "dtm.tif"), expected, equal_nan=True)
     files = [str(source), str(tmp_path / "out.laz"), "--dtm", str(tmp_path / "once.tif")]
     known = ["--dsm", str(tmp_path / "dsm.tif"), "--breaklines", str(tmp_path / "lines.geojson")]
-    assert main(["classify", *files, "--method", "slope", *known]) == 0
+    assert main(["classify", *files, *FAST_WORDS, *known]) == 0
     assert main(["terrain", *files[1:2], "--dtm", str(tmp_path / "again.tif"), *known]) == 0
     assert (tmp_path / "once.tif").read_bytes() == (tmp_path / "again.tif").read_bytes()
     assert main([*words, "--water", str(tmp_path / "lines.geojson")]) == 1
