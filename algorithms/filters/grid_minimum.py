@@ -205,7 +205,7 @@ def _classic(values: Preset) -> Pipeline:
             LowestPoints(size=values.cell_size),
             BlockPits(),
             TallObjects(objects, min(heights)),
-            Rims(objects, values.final_height, objects_grow_back=True),
+            Rims(objects, values.final_height, objects_grow_back=True, width=None),
             PaperSurface(
                 _PAPER_TOLERANCE if tolerance is None else tolerance, values.slope_tolerance
             ),

@@ -13,6 +13,7 @@ from benchmarks.scenes.plain import KINDS, rows
 # Rows that are held: each day by the method at its place in turn, and by all of them in long tests.
 HELD = (
     "pit-8x6-slope0-8pm2-a",
+    "funnel-10x5-slope0-2pm2-a",
     "cellar-8x3x12-slope5-4pm2-b",
     "ditch-5x2-slope5-2pm2-a",
     "hollow-way-6x3-slope20-4pm2-b",
@@ -41,7 +42,7 @@ HELD = (
 # Those that TIN densification alone holds.
 HELD_BY_TIN = "a-frame-16x10x8-slope0-8pm2-b", "polytunnels-60x8x3.5x1x8-slope3-4pm2-a"
 # How many rows of the matrix each method holds at least.
-LEAST = {"tin-densification": 347, "grid-minimum": 338, "slope": 342}
+LEAST = {"tin-densification": 362, "grid-minimum": 357, "slope": 355}
 ROWS = {row.name: row for row in rows()}
 
 

@@ -17,7 +17,7 @@ from ...core.progress import SILENT, Progress
 from ...grids.cells import Cells, usual_count
 from ...grids.gradient import steepness
 from ...grids.inpaint import inpaint
-from ...grids.morphology import within_square
+from ...grids.morphology import in_steps, opening, within_square
 from ..cell_blocks import CellBlocks
 from ..height_grid import HeightGrid
 from ..pipeline import GridRule, PointRule, Stage
@@ -241,13 +241,23 @@ class Rims(GridRule):
     # Multiple of the unevenness of the terrain that is added to the height of rims.
     roughness: float = 2.0
     objects_grow_back: bool = False  # whether cells of tall objects may grow back, too
+    # Metres: only what an opening of this width cuts off has rims, as the sides of hollows are no
+    # objects. Regions are wider ones. None for all rims.
+    width: float | None = 8.0
 
     def apply(self, grid: GridState, progress: Progress = SILENT) -> None:
         """Raise the cells of low objects."""
         ground, inside = grid.heights.where(~grid.objects), grid.surveyed
+        stands_out = inside
+        if self.width is not None:
+            filled, step = in_steps(ground.filled(_RELAXATIONS).astype(np.float32))
+            filled -= opening(filled, max(self.width / 2.0 / ground.size, 1.0))
+            # As unsigned numbers, differences do not overflow.
+            stands_out = filled.view(np.uint16) * step > self.height
         for done in range(self.passes):
             steps = HeightSteps(ground, inside)
             regions, rims = steps.regions_and_rims(self.height, self.roughness)
+            rims &= stands_out
             if self.objects:
                 rims |= self.objects.bounded(regions)
             ground.values[rims] = np.nan
