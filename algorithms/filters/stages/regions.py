@@ -16,8 +16,8 @@ from ..state import GridState
 _PIT_SHARE = 0.9
 # Rounds in which regions that others hid are tested again.
 _ROUNDS = 3
-# Wider regions, in metres, may be table mountains. A wall falls within the first of these distances in
-# metres, and is compared with the fall within the second.
+# Wider regions, in metres, may be table mountains. The side of a region is a wall if nearly all of
+# its fall within the second of these distances, in metres, is within the first.
 _WIDE = 25.0
 _SIDES = 2.0, 4.0
 # Metres from the mean of two opposite neighbours that half of the cells of a rough region are off,
