@@ -179,11 +179,11 @@ class Regions:
         rough = ndimage.median(bend, np.where(np.isfinite(bend), number, 0), wide) >= _ROUGH
         low = np.nan_to_num(heights, nan=np.inf)
         at_once, all_ = (
-            low - within_square(np.minimum, low, max(round(reach / self._size), 1))
+            heights - within_square(np.minimum, low, max(round(reach / self._size), 1))
             for reach in _SIDES
         )
         rim = within_square(np.minimum, number, 1) != within_square(np.maximum, number, 1)
-        rim &= np.isfinite(low) & (all_ > 0.0)
+        rim &= all_ > 0.0
         share = np.divide(at_once, all_, out=np.ones(number.shape), where=rim)
         return rough & (ndimage.median(share, np.where(rim, number, 0), wide) < wall)
 
