@@ -29,7 +29,7 @@ from .stages.densify import Densification
 from .stages.objects import RaisedObjects
 from .stages.opening import ProgressiveOpening
 from .stages.outliers import NarrowPits
-from .stages.regions import LowBanks
+from .stages.raised_regions import LowBanks
 from .stages.seeds import DENSE_SPACING, KnownGround, LowestPoints, Seeds
 from .stages.shrubs import Shrubs
 from .stages.terrain import GentleBorder, GentleRegions

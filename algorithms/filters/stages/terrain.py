@@ -16,7 +16,7 @@ from ..cell_blocks import CellBlocks
 from ..height_grid import HeightGrid
 from ..pipeline import GridRule, Rule, Stage
 from ..state import GridState
-from .regions import LowBanks, RaisedRegions, Rocks, raised_regions
+from .raised_regions import LowBanks, RaisedRegions, Rocks, raised_regions
 
 
 @dataclass(frozen=True)

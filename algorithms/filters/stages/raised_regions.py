@@ -1,0 +1,238 @@
+"""Raised regions of cells between steps, such as rocks and banks."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from ...grids.cells import are_inside
+from ...grids.morphology import within_square
+from ..pipeline import Rule
+from ..state import GridState
+
+# Metres from the mean of two opposite neighbours within which a cell is even.
+_BEND = 0.15
+# Regions of the first and of the second cell of pairs of cells; -1 for cells that are not raised.
+_Pairs = tuple[np.ndarray, np.ndarray]
+# Pairs of cells (indices into the flattened grid), and the sign of the step between them.
+Steps = tuple[np.ndarray, np.ndarray, np.ndarray]
+
+
+class RaisedRegions(NamedTuple):
+    """The raised regions of a grid, with what rules ask about them."""
+
+    size: float  # side of a cell in metres
+    shape: tuple[int, int]  # rows and columns of the grid
+    cells: np.ndarray  # intp (n,): The raised cells, in the flattened grid
+    number: np.ndarray  # int64 (n,): Region of each of these cells
+    # float (n,): Height of each of these cells, and its height above the ground, in metres.
+    heights: np.ndarray
+    heights_above: np.ndarray
+    # float64 (regions,): Square metres; mean height above the ground in metres.
+    area: np.ndarray
+    above: np.ndarray
+    filled: np.ndarray  # float32 (rows, columns): Heights of all cells in metres, without NaN
+    # Pairs of regions between which there are level steps, drops and rises, for two directions, and
+    # the first cells of the level steps.
+    borders: list[list[_Pairs]]
+    level_cells: list[np.ndarray]
+    cut: np.ndarray  # float64 (regions,): Sides of cells along the border of the survey
+
+    @property
+    def even(self) -> np.ndarray:
+        """Which raised cells are even (`even_cells`); boolean, shape (n,)."""
+        return even_cells(self.filled).ravel()[self.cells]
+
+    @property
+    def mean_width(self) -> np.ndarray:
+        """Mean width of each region in metres, that of a strip with its area and border."""
+        sides = np.zeros(len(self.area))
+        for kinds in self.borders:
+            for first, _ in kinds:
+                sides += np.bincount(first, minlength=len(sides))
+        return 2.0 * self.area / np.maximum(sides * self.size, self.size)
+
+    def widths(self, ground: np.ndarray) -> np.ndarray:
+        """Return how many metres of the border of each region are level in one place, given the
+        regions that are ground (bool, one each, and a last one for all other cells).
+        """
+        from scipy import ndimage
+
+        level, own = np.zeros(self.shape, dtype=bool), []
+        for (pairs, *_), cells in zip(self.borders, self.level_cells):
+            is_ground = ground[pairs[1]]
+            level.ravel()[cells[is_ground]] = True
+            own.append((pairs[0][is_ground], cells[is_ground]))
+        place, _ = ndimage.label(level, np.ones((3, 3)))
+        length = np.bincount(place.ravel()) * self.size
+        widths = np.zeros(len(self.area))
+        for region, cells in own:
+            np.maximum.at(widths, region, length[place.ravel()[cells]])
+        return widths
+
+    def spread(self, regions: np.ndarray) -> np.ndarray:
+        """Return the cells of some regions (boolean, one each) as a mask (rows, columns)."""
+        mask = np.zeros(self.shape, dtype=bool)
+        mask.ravel()[self.cells] = regions[self.number]
+        return mask
+
+
+def raised_regions(
+    grid: GridState, raised: np.ndarray, steps: Steps, judges_gaps: bool
+) -> RaisedRegions:
+    """Return the regions of the raised cells that no step parts, given pairs of neighbours of which
+    at least one is raised.
+    """
+    # If gaps are judged, a cell without a point is no evidence of a gentle border.
+    cell, neighbour, sign = steps
+    seen = grid.heights.known.ravel() if judges_gaps else np.ones(raised.size, dtype=bool)
+    up = raised.ravel()
+    inside = (sign == 0) & up[cell] & up[neighbour]
+    region, count = _numbered(raised, cell[inside], neighbour[inside])
+    cells = np.flatnonzero(up)
+    number, size = region[cells], grid.cells.size
+    area = np.bincount(number, minlength=count) * size**2
+    heights = grid.filled.ravel()[cells]
+    above = heights - grid.surface.ravel()[cells]
+    return RaisedRegions(
+        size,
+        raised.shape,
+        cells,
+        number,
+        heights,
+        above,
+        area,
+        np.bincount(number, above, count) * size**2 / area,
+        grid.filled,
+        *_borders(region, up, steps, seen),
+        np.bincount(number, _sides_outside(grid.surveyed).ravel()[cells], count),
+    )
+
+
+def _sides_outside(surveyed: np.ndarray) -> np.ndarray:
+    """Return how many of the four neighbours of each cell were not surveyed."""
+    outside = np.pad(~surveyed, 1, constant_values=True).astype(np.int8)
+    return outside[2:, 1:-1] + outside[:-2, 1:-1] + outside[1:-1, 2:] + outside[1:-1, :-2]
+
+
+def even_cells(filled: np.ndarray) -> np.ndarray:
+    """Return which cells (rows, columns) are about as high as the mean of opposite neighbours."""
+    even = np.zeros(filled.shape, dtype=bool)
+    for to, z in ((even, filled), (even.T, filled.T)):
+        to[1:-1] |= np.abs(z[2:] + z[:-2] - 2.0 * z[1:-1]) <= 2.0 * _BEND
+    return even
+
+
+def _numbered(up: np.ndarray, cell: np.ndarray, neighbour: np.ndarray) -> tuple[np.ndarray, int]:
+    """Return the region of each cell, -1 where none is raised, and their number, from raised cells
+    (rows, columns) and pairs of them, side by side or one above the other, without a step.
+    """
+    from scipy import ndimage
+
+    # A grid of cells with their links between them is labelled: a graph of scipy.sparse would be
+    # as fast, but takes longer to import than a small file to filter.
+    (rows, columns), width = up.shape, 2 * up.shape[1] - 1
+    linked = np.zeros((2 * rows - 1, width), dtype=bool)
+    linked[::2, ::2] = up
+    link = 2 * cell + cell // columns * (2 * width - 2 * columns)
+    link += np.where(neighbour == cell + 1, 1, width)
+    linked.ravel()[link] = True
+    label, count = ndimage.label(linked)
+    return label[::2, ::2].astype(np.int64).ravel() - 1, count
+
+
+def _borders(
+    region: np.ndarray, up: np.ndarray, steps: Steps, seen: np.ndarray
+) -> tuple[list[list[_Pairs]], list[np.ndarray]]:
+    """Return, for each of two directions, the pairs of regions with level steps, drops and rises
+    between them, and the first cells of the level steps.
+    """
+    cell, neighbour, sign = steps
+    borders, level_cells = [], []
+    for from_, to, drop in ((cell, neighbour, -1), (neighbour, cell, 1)):
+        differ = up[from_] & (region[from_] != region[to])
+        kinds = (sign == 0) & seen[from_], sign == drop, sign == -drop
+        kinds = tuple(differ & kind for kind in kinds)
+        borders.append([(region[from_[which]], region[to[which]]) for which in kinds])
+        level_cells.append(from_[kinds[0]])
+    return borders, level_cells
+
+
+@dataclass(frozen=True)
+class Rocks(Rule):
+    """A region that rises more unevenly than roofs, bridges and woods is a rock."""
+
+    # A roof or a bridge is level; a wood on a slope is equally high above the ground everywhere.
+
+    area: float = 200.0  # least area in square metres
+    # Least standard deviation in metres of its heights, and of its heights above the ground.
+    deviation: float = 5.0
+    # A roof is lower, or level: then a band of heights, in metres, holds more than this share of
+    # its cells.
+    band: float = 3.0
+    band_share: float = 1.0 / 3.0
+
+    def fits(self, regions: RaisedRegions) -> np.ndarray:
+        """Return which regions are rocks; boolean, shape (regions,)."""
+        number, count = regions.number, np.bincount(regions.number)
+        is_rock = regions.area >= self.area
+        for values in (regions.heights, regions.heights_above):
+            mean = np.bincount(number, values) / count
+            square = (values - mean[number]) * values
+            is_rock &= np.bincount(number, square) >= self.deviation**2 * count
+        for rock in np.flatnonzero(is_rock):
+            z = np.sort(regions.heights[number == rock])
+            in_band = np.searchsorted(z, z + self.band) - np.arange(len(z))
+            is_rock[rock] = in_band.max() <= self.band_share * len(z)
+        return is_rock
+
+
+@dataclass(frozen=True)
+class LowBanks(Rule):
+    """A low, narrow and even strip is a bank of a field, a dyke or the rim of a ditch."""
+
+    # Of a hedge or a wall, cells have points on the ground beside it; of a row of cars, they are
+    # not even. Platforms of ISPRS sample 42 need it.
+
+    area: float = 20.0  # least area in square metres
+    height: float = 1.2  # largest mean height above the ground in metres
+    width: float = 6.0  # largest mean width in metres
+    even_share: float = 0.7  # least share of the cells that are even
+    # On a larger share of its border than this, another strip as high is beside it: it is one of a
+    # row, as of panels or planters. 1 if that does not matter.
+    most_in_row: float = 0.8
+    beyond: float = 0.35  # the strip beside it may be lower by this share of the drop between them
+
+    def fits(self, regions: RaisedRegions) -> np.ndarray:
+        """Return which regions are banks; boolean, shape (regions,)."""
+        count = len(regions.area)
+        region = regions.number
+        share = np.bincount(region, regions.even, count) / np.bincount(region, minlength=count)
+        is_bank = (regions.area >= self.area) & (regions.mean_width <= self.width)
+        if self.most_in_row < 1.0:
+            is_bank &= ~self._in_rows(regions)
+        return is_bank & (regions.above <= self.height) & (share >= self.even_share)
+
+    def _in_rows(self, regions: RaisedRegions) -> np.ndarray:
+        """Return which regions have another as high beside them on most of their border."""
+        number = np.zeros(regions.shape, dtype=np.int32)
+        number.ravel()[regions.cells] = regions.number + 1
+        filled, reach = regions.filled, max(round(self.width / regions.size / 2.0), 1)
+        closed = within_square(np.minimum, within_square(np.maximum, filled, reach), reach)
+        into, border = np.zeros((2, len(regions.area)))
+        row, column = np.divmod(regions.cells, regions.shape[1])
+        for up, right in ((1, 0), (-1, 0), (0, 1), (0, -1)):
+            inside = are_inside(row + up, column + right, regions.shape)
+            here, own = regions.cells[inside], regions.number[inside]
+            there = here + up * regions.shape[1] + right
+            beside = number.take(there) != own + 1
+            here, there, own = here[beside], there[beside], own[beside]
+            drop = filled.take(here) - filled.take(there)
+            # Of the gap to the other, the closing fills all but a share of the drop.
+            is_gap = (number.take(there) == 0) & (drop > 0.0)
+            is_gap &= closed.take(there) >= filled.take(here) - self.beyond * drop
+            border += np.bincount(own, minlength=len(border))
+            into += np.bincount(own, is_gap, len(border))
+        return into > self.most_in_row * border
