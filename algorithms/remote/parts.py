@@ -16,6 +16,8 @@ from ..core.temporary import is_temporary, remove
 from .addresses import shown
 
 _ABOUT = "about.json"
+# How often a file is written whose folder another run, which has all of the cloud, removes.
+_TRIES = 5
 _RANGE = re.compile(r"(\d+)-(\d+)")
 _TILE = re.compile(r"\d+-\d+-\d+-\d+\.\w+")
 Range = tuple[int, int]  # first byte, and the one after the last
@@ -39,20 +41,25 @@ class Parts:
         about = json.dumps({"address": shown(self._address), **version})
         with write_errors_told(self._folder):
             make_work_folder(self._folder)
-            if not all(map(_is_ours, self._folder.iterdir())):
+            if not all(map(_is_ours, self._paths())):
                 raise BareEarthError(
                     f"{self._folder} is in the way: what is downloaded waits in a folder of this"
                     " name. Rename it, or choose another output."
                 )
             if not is_certain or self._about() != about:
-                for path in self._folder.iterdir():
+                for path in self._paths():
                     remove(path)
-                with replacing(self._folder / _ABOUT) as temporary:
-                    temporary.write_text(about, encoding="utf-8")
-            for path in self._folder.iterdir():
+                self.add_file(_ABOUT, about.encode())
+            for path in self._paths():
                 found = _RANGE.fullmatch(path.name)
                 if found and _size_of(path) == int(found[2]) - int(found[1]):
                     self._know(int(found[1]), int(found[2]))
+
+    def _paths(self) -> list[Path]:
+        """Return what is in the folder; nothing if another run has removed it."""
+        with contextlib.suppress(FileNotFoundError):
+            return list(self._folder.iterdir())
+        return []
 
     def _about(self) -> str | None:
         with contextlib.suppress(OSError, ValueError):
@@ -106,9 +113,16 @@ class Parts:
 
     def add_file(self, name: str, data: bytes) -> None:
         """Keep a whole file."""
-        path = self.path_of(name)
-        with write_errors_told(self._folder), replacing(path) as temporary:
-            temporary.write_bytes(data)
+        with write_errors_told(self._folder):
+            for tries_left in reversed(range(_TRIES)):
+                make_work_folder(self._folder)
+                try:
+                    with replacing(self.path_of(name)) as temporary:
+                        temporary.write_bytes(data)
+                    return
+                except BareEarthError as error:
+                    if not (tries_left and isinstance(error.__cause__, FileNotFoundError)):
+                        raise
 
     def path_of(self, name: str) -> Path:
         """Return where a whole file is kept."""

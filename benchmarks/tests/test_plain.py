@@ -23,7 +23,7 @@ HELD = (
     "levee-4x3-slope0-1pm2-b",
     "scarp-6x12-slope10-2pm2-a",
     "mound-25x4-slope0-1pm2-b",
-    "heap-15x4-slope0-4pm2-a",
+    "heap-15x4-slope0-4pm2-b",
     "butte-75x13-slope0-4pm2-b",
     "terrace-by-house-0.3x2.5-slope5-4pm2-b",
     "flat-roof-40x25x3-slope0-2pm2-a",

@@ -19,6 +19,7 @@ from bare_earth.algorithms.las import copc_octree
 from bare_earth.algorithms.library.remote_points import margin_of
 from bare_earth.algorithms.remote import files, transfers, whole
 from bare_earth.algorithms.remote.cache import cache_of
+from bare_earth.algorithms.remote.parts import Parts, remove_parts
 from bare_earth.algorithms.tools.ground.method import TileMethod
 
 WEST, SOUTH = ORIGIN[:2]
@@ -455,6 +456,14 @@ def test_two_runs_at_once_share_an_empty_cache(server, tiles, tmp_path):
         thread.join()
     assert not errors
     assert len({(tmp_path / f"{number}.laz").read_bytes() for number in range(3)}) == 1
+
+
+def test_parts_are_kept_though_another_run_that_ended_has_removed_their_folder(tmp_path):
+    parts = Parts(tmp_path / "parts", "https://example.org/a.copc.laz")
+    parts.begin({"size": 9}, True)
+    remove_parts(tmp_path / "parts")
+    parts.add(2, b"abc")
+    assert parts.read(2, 5) == b"abc"
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows has other permissions")

@@ -140,7 +140,7 @@ def test_the_command_line_knows_the_commands_of_a_page(path, pages, monkeypatch,
     def idle(command):
         return command._replace(run=lambda options: 0)
 
-    monkeypatch.setattr(cli, "_COMMANDS", [*map(idle, cli._COMMANDS)])
+    monkeypatch.setattr(cli, "_CLEAR_CACHE", idle(cli._CLEAR_CACHE))
     command_of = cli.tool_command
     monkeypatch.setattr(cli, "tool_command", lambda name: idle(command_of(name)))
     page = path.read_text(encoding="utf-8")
