@@ -206,7 +206,9 @@ def pipeline(points: Points, parameters: SlopeFilter, progress: Progress) -> Pip
         one = as_given(OneScale(), resolved)
         return Pipeline((StandsAbove(*one, resolved.slope_norm, resolved.min_neighbours),))
     many = as_given(MANY_SCALES[resolved.preset], resolved)
-    rises = SteepRises(*many[:3], resolved.slope_norm)
+    rises = SteepRises(
+        many.search_radius, many.slope_threshold, many.height_threshold, resolved.slope_norm
+    )
     return shared_pipeline(
         LowestPoints(size=many.cell_size),
         many.max_building_size,

@@ -77,7 +77,7 @@ class HeightSteps:
         flat[cells] = own.ravel()[cells] + count
         count += more + 1
         border = self._border(flat, count, steps)
-        return Regions(self._unframed(regions), border, self._size, self._step, self._known_heights)
+        return self._regions_of(regions, border)
 
     def pits(self, candidates: np.ndarray, threshold: float, max_size: float) -> np.ndarray:
         """Return the cells of patches of candidates, at most `max_size` metres wide, that lie below
@@ -88,10 +88,11 @@ class HeightSteps:
         patches, count = ndimage.label(np.pad(candidates, self._step), np.ones((3, 3)))
         patches[(patches == 0) & self._inside] = count + 1
         border = self._border(patches.ravel(), count + 2, *self._steps(threshold))
-        patches = Regions(
-            self._unframed(patches), border, self._size, self._step, self._known_heights
-        )
-        return patches.sunken(max_size) & candidates
+        return self._regions_of(patches, border).sunken(max_size) & candidates
+
+    def _regions_of(self, number: np.ndarray, border: Border) -> Regions:
+        """Return regions, given their numbers with the frame, and their borders."""
+        return Regions(self._unframed(number), border, self._size, self._step, self._known_heights)
 
     def regrown(self, kept: np.ndarray, heights: np.ndarray, threshold: float) -> np.ndarray:
         """Return the kept ground, and the cells with a height that are level with the mean of the

@@ -250,10 +250,10 @@ class Rims(GridRule):
         ground, inside = grid.heights.where(~grid.objects), grid.surveyed
         stands_out = inside
         if self.width is not None:
-            filled, step = in_steps(ground.filled(_RELAXATIONS).astype(np.float32))
-            filled -= opening(filled, max(self.width / 2.0 / ground.size, 1.0))
+            cut, step = in_steps(ground.filled(_RELAXATIONS).astype(np.float32))
+            cut -= opening(cut, max(self.width / 2.0 / ground.size, 1.0))
             # As unsigned numbers, differences do not overflow.
-            stands_out = filled.view(np.uint16) * step > self.height
+            stands_out = cut.view(np.uint16) * step > self.height
         for done in range(self.passes):
             steps = HeightSteps(ground, inside)
             regions, rims = steps.regions_and_rims(self.height, self.roughness)

@@ -11,6 +11,7 @@ from ...grids.cells import are_inside
 from ...grids.morphology import within_square
 from ..pipeline import Rule
 from ..state import GridState
+from .regions import bends
 
 # Metres from the mean of two opposite neighbours within which a cell is even.
 _BEND = 0.15
@@ -119,10 +120,7 @@ def _sides_outside(surveyed: np.ndarray) -> np.ndarray:
 
 def even_cells(filled: np.ndarray) -> np.ndarray:
     """Return which cells (rows, columns) are about as high as the mean of opposite neighbours."""
-    even = np.zeros(filled.shape, dtype=bool)
-    for to, z in ((even, filled), (even.T, filled.T)):
-        to[1:-1] |= np.abs(z[2:] + z[:-2] - 2.0 * z[1:-1]) <= 2.0 * _BEND
-    return even
+    return np.logical_or(*(bends(filled) <= _BEND))
 
 
 def _numbered(up: np.ndarray, cell: np.ndarray, neighbour: np.ndarray) -> tuple[np.ndarray, int]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -65,9 +66,9 @@ class Border(NamedTuple):
     ) -> np.ndarray:
         """Count pairs, or add up their weights, for the region of each of their cells."""
         total = np.zeros(self.regions)
-        for region, which in ((self.first, first), (self.second, second)):
-            counted = weights if weights is None else weights[which]
-            total += np.bincount(region[which], counted, self.regions)
+        for region, own in ((self.first, first), (self.second, second)):
+            counted = weights if weights is None else weights[own]
+            total += np.bincount(region[own], counted, self.regions)
         return total
 
 
@@ -106,13 +107,13 @@ class Regions:
         """
         from scipy import ndimage
 
-        which = np.zeros(len(self.width), dtype=bool)
-        which[self.number[found]] = True
+        closed = np.zeros(len(self.width), dtype=bool)
+        closed[self.number[found]] = True
         border = self._border
         is_level = (border.sign == 0) & (border.first > 0) & (border.second > 0)
         sides = []
         for regions, cells in zip((border.first, border.second), border.cell.T):
-            own = is_level & which[regions]
+            own = is_level & closed[regions]
             sides.append((regions[own], cells[own]))
         level = np.zeros([side + 2 * self._frame for side in self.number.shape], dtype=bool)
         for _, cells in sides:
@@ -121,8 +122,8 @@ class Regions:
         longest = [max(s.stop - s.start for s in box) for box in ndimage.find_objects(place)]
         is_ramp = np.array([0, *longest]) * self._size >= width
         for regions, cells in sides:
-            which[regions[is_ramp[place.ravel()[cells]]]] = False
-        return which[self.number]
+            closed[regions[is_ramp[place.ravel()[cells]]]] = False
+        return closed[self.number]
 
     def sunken(self, max_size: float) -> np.ndarray:
         """Return the cells of pits: regions whose border is a rise nearly all round."""
@@ -149,25 +150,23 @@ class Regions:
             new = fits & ~found & (drops > 0)
             new &= height >= np.maximum(least_steepness * self.width, least_height)
             new &= (drops >= share * known) & (drops > least_share * pairs)
-            if least_wall > 0.0:
-                wide = np.flatnonzero(new & (self.width > _WIDE))
-                new[wide[self._are_mountains(wide, least_wall)]] = False
+            if least_wall > 0.0 and (self.width[new] > _WIDE).any():
+                new &= ~(self._walls < least_wall)
             if not new.any():
                 break
             found |= new
         return found[self.number]
 
-    def _are_mountains(self, wide: np.ndarray, wall: float) -> np.ndarray:
-        """Return which of some regions are rough, with sides that are no walls."""
+    @cached_property
+    def _walls(self) -> np.ndarray:
+        """The share of the fall round each region that is at once; 1 for those that are not wide
+        and rough, which are no mountains whatever their sides.
+        """
         from scipy import ndimage
 
-        if not len(wide):
-            return np.zeros(0, dtype=bool)
+        walls, wide = np.ones(len(self.width)), np.flatnonzero(self.width > _WIDE)
         number, heights = self.number, self._heights
-        bend = np.full((2, *heights.shape), np.nan)
-        for of_axis, z in ((bend[0], heights), (bend[1].T, heights.T)):
-            of_axis[1:-1] = np.abs(z[2:] + z[:-2] - 2.0 * z[1:-1]) / 2.0
-        bend = np.fmax(*bend)
+        bend = np.fmax(*bends(heights))
         rough = ndimage.median(bend, np.where(np.isfinite(bend), number, 0), wide) >= _ROUGH
         low = np.nan_to_num(heights, nan=np.inf)
         at_once, all_ = (
@@ -177,7 +176,19 @@ class Regions:
         rim = within_square(np.minimum, number, 1) != within_square(np.maximum, number, 1)
         rim &= all_ > 0.0
         share = np.divide(at_once, all_, out=np.ones(number.shape), where=rim)
-        return rough & (ndimage.median(share, np.where(rim, number, 0), wide) < wall)
+        of_wide = ndimage.median(share, np.where(rim, number, 0), wide)
+        walls[wide[rough]] = of_wide[rough]
+        return walls
+
+
+def bends(heights: np.ndarray) -> np.ndarray:
+    """Return how many metres each cell is off the mean of its two opposite neighbours, north to
+    south and east to west, shape (2, rows, columns); NaN where one has no height.
+    """
+    found = np.full((2, *heights.shape), np.nan, dtype=heights.dtype)
+    for of_axis, z in ((found[0], heights), (found[1].T, heights.T)):
+        of_axis[1:-1] = np.abs(z[2:] + z[:-2] - 2.0 * z[1:-1]) / 2.0
+    return found
 
 
 def _shorter_side(area: np.ndarray, perimeter: np.ndarray) -> np.ndarray:
