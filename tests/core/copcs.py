@@ -3,7 +3,7 @@
 import struct
 
 import numpy as np
-from conftest import las_bytes, make_records
+from las_files import las_bytes, make_records
 from surveys import write_classified
 
 from bare_earth.algorithms.las import copc_octree

@@ -30,6 +30,22 @@ FAST = {"method": "slope", "preset": "whitebox"}
 FAST_WORDS = ("--method", "slope", "--preset", "whitebox")
 
 
+class Heard(Progress):
+    """Keeps what it is told."""
+
+    def __init__(self):
+        self.fractions, self.infos, self.warnings = [], [], []
+
+    def report(self, fraction):
+        self.fractions.append(fraction)
+
+    def info(self, text):
+        self.infos.append(text)
+
+    def warning(self, text):
+        self.warnings.append(text)
+
+
 class CancelAt(Progress):
     """Cancels from a share of the work on, and knows how far it came."""
 

@@ -5,8 +5,7 @@ import json
 import laspy
 import numpy as np
 import pytest
-from conftest import Heard
-from runs import said
+from runs import Heard, said
 from surveys import ORIGIN, classes_of, points_of, write_points
 
 from bare_earth import BareEarthError, above_ground, classify
@@ -350,9 +349,9 @@ def test_a_file_without_ground_is_refused(village, tmp_path):
     assert not (tmp_path / "out.laz").exists()
 
 
-def test_a_file_with_nothing_to_change_is_told(village, tmp_path, las):
+def test_a_file_with_nothing_to_change_is_told(village, tmp_path):
     classes = np.where(village.ground, 2, 6).astype(np.uint8)
-    source, progress = _write(tmp_path / "in.laz", village, classes), las.Heard()
+    source, progress = _write(tmp_path / "in.laz", village, classes), Heard()
     assert above_ground(source, tmp_path / "out.laz", progress=progress).changed_count == 0
     assert any("decided anew" in text for text in progress.warnings)
 

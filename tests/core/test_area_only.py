@@ -5,6 +5,7 @@ import json
 import laspy
 import numpy as np
 import pytest
+from runs import Heard
 from surveys import bytes_of, cut, finished, points_of, strip, write
 
 from bare_earth import BareEarthError, classify
@@ -69,8 +70,8 @@ def test_many_files_are_classified_in_the_area_as_one(inputs, tmp_path):
     assert summary.done_count == summary.tile_count == 6 and not summary.failures
 
 
-def test_of_many_files_those_outside_are_not_written(inputs, tmp_path, las):
-    one, many, progress = tmp_path / "one.laz", tmp_path / "many", las.Heard()
+def test_of_many_files_those_outside_are_not_written(inputs, tmp_path):
+    one, many, progress = tmp_path / "one.laz", tmp_path / "many", Heard()
     classify(inputs / "one.laz", one, **ONLY)
     summary = classify([inputs / "in"], many, **ONLY, progress=progress)
     assert np.array_equal(points_of(finished(many)), points_of([one]))
@@ -141,7 +142,7 @@ def test_a_run_goes_on_in_the_same_area_only(inputs, tmp_path):
     assert classify([inputs / "in"], tmp_path, **ALL, resume=True).kept_count == 0
 
 
-def test_an_area_that_meets_no_point_is_told(inputs, tmp_path, las):
+def test_an_area_that_meets_no_point_is_told(inputs, tmp_path):
     elsewhere = EAST + 5000.0, NORTH, EAST + 5100.0, NORTH + 100.0
     for source in (inputs / "one.laz", [inputs / "in"]):
         for only in (True, False):
@@ -152,7 +153,7 @@ def test_an_area_that_meets_no_point_is_told(inputs, tmp_path, las):
     gap = EAST + x + 0.002, NORTH + y + 0.002, EAST + x + 0.008, NORTH + y + 0.008
     with pytest.raises(BareEarthError, match="None of the files has points to write"):
         classify([inputs / "in"], tmp_path / "many", extent=gap, area_only=True, **SLOPE)
-    progress = las.Heard()
+    progress = Heard()
     classify([inputs / "in"], tmp_path / "all", extent=gap, progress=progress, **SLOPE)
     assert [text for text in progress.warnings if "No point lies in the area" in text]
 
@@ -178,7 +179,7 @@ def test_the_command_writes_the_area_alone(inputs, tmp_path, capsys):
     assert len(one) == in_area(laspy.read(inputs / "all.laz")).sum()
 
 
-def test_corrections_that_meet_no_point_are_told_once(inputs, tmp_path, las):
+def test_corrections_that_meet_no_point_are_told_once(inputs, tmp_path):
     between = EAST + 50.001, NORTH + 50.001, EAST + 50.002, NORTH + 50.002
     for box, count in ((between, 1), ((EAST, NORTH, EAST + 9.0, NORTH + 9.0), 0)):
         west, south, east, north = box
@@ -189,7 +190,7 @@ def test_corrections_that_meet_no_point_are_told_once(inputs, tmp_path, las):
             json.dumps({"type": "Feature", "properties": {"class": 6}, "geometry": polygon})
         )
         for number, source in enumerate((inputs / "one.laz", [inputs / "in"])):
-            progress, out = las.Heard(), tmp_path / f"{count}-{number}.laz"
+            progress, out = Heard(), tmp_path / f"{count}-{number}.laz"
             classify(source, out, method="slope", corrections=known, progress=progress)
             told = [text for text in progress.warnings if "polygons of the corrections" in text]
             assert len(told) == count

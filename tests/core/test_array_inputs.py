@@ -9,8 +9,7 @@ from pathlib import Path
 import laspy
 import numpy as np
 import pytest
-from conftest import Heard
-from runs import FAST
+from runs import FAST, Heard
 from surveys import ORIGIN, strip, write
 
 import bare_earth

@@ -12,7 +12,7 @@ import stub
 from matrices import quick
 from realdata import real
 from surveys import ORIGIN, strip, write, write_points
-from test_water import lake_scene
+from water_scenes import lake_scene
 
 import bare_earth
 from bare_earth import arrays

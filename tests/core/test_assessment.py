@@ -4,10 +4,10 @@ import json
 import re
 import struct
 import zlib
-from html.parser import HTMLParser
 
 import numpy as np
 import pytest
+from html_tags import Tags
 from surveys import write_points
 
 from bare_earth import BareEarthError
@@ -68,26 +68,6 @@ def write(path, classes, order=slice(None)):
 @pytest.fixture
 def files(tmp_path):
     return write(tmp_path / "found.las", FOUND), write(tmp_path / "truth.las", TRUTH)
-
-
-class Tags(HTMLParser):
-    """Reads a page: which tags stay open, what else it loads, its texts."""
-
-    def __init__(self, text):
-        super().__init__()
-        self.open, self.links, self.texts = [], [], []
-        self.feed(text)
-
-    def handle_starttag(self, tag, attributes):
-        if tag not in ("meta", "img", "br"):
-            self.open.append(tag)
-        self.links += [value for name, value in attributes if name in ("src", "href")]
-
-    def handle_endtag(self, tag):
-        assert self.open.pop() == tag
-
-    def handle_data(self, data):
-        self.texts.append(data.strip())
 
 
 def picture_of(page):

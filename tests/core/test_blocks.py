@@ -12,6 +12,8 @@ import bare_earth
 from bare_earth import arrays
 from bare_earth.algorithms.engine import blocks as engine_blocks
 
+pytestmark = pytest.mark.processes
+
 # Looks only a few metres round a point.
 NEAR = {"method": "slope", "preset": "whitebox", "search_radius": 3.0}
 RASTERS = ("dtm", "dsm", "hillshade", "expected_error", "red_relief")

@@ -5,6 +5,7 @@ import pytest
 import surveys
 from matrices import quick
 from realdata import real
+from runs import Heard
 
 from bare_earth import BareEarthError
 from bare_earth.algorithms.classes.selection import Selection
@@ -226,9 +227,9 @@ def cloud_of(points, **others):
 
 
 @pytest.mark.parametrize("method", quick(METHODS, "tin-densification"))
-def test_a_bridge_is_other_or_of_the_class_that_is_wanted(method, las):
+def test_a_bridge_is_other_or_of_the_class_that_is_wanted(method):
     (points, deck), parameters = SCENES["underpass"], METHODS[method].parameters()
-    cloud, progress = cloud_of(points), las.Heard()
+    cloud, progress = cloud_of(points), Heard()
     kept, _ = classify_cloud(cloud, parameters, Selection(bridges="keep"))
     other, _ = classify_cloud(cloud, parameters, progress=progress)
     marked, _ = classify_cloud(cloud, parameters, Selection(bridge_class=17))

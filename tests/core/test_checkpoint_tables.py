@@ -4,9 +4,9 @@ import json
 
 import numpy as np
 import pytest
-from conftest import Heard
+from checkpoints import CORNER, check, cloud, height, places, write
 from realdata import real
-from test_checkpoints import CORNER, check, cloud, height, places, write
+from runs import Heard
 
 from bare_earth import BareEarthError
 from bare_earth.algorithms.tools.check.accuracy import Accuracy

@@ -6,47 +6,21 @@ import re
 
 import numpy as np
 import pytest
-from conftest import Heard
+from checkpoints import CORNER, EAST, NORTH, SIZE, check, cloud, height, places, write
+from html_tags import Tags
 from matrices import quick
-from surveys import write_points
-from test_assessment import Tags
+from runs import Heard
 
-from bare_earth import BareEarthError, Progress
+from bare_earth import BareEarthError
 from bare_earth.algorithms.classes.ground_classes import GroundClasses
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.tools.check import survey_ground
 from bare_earth.algorithms.tools.check.accuracy import Accuracy, Figures, statement
-from bare_earth.algorithms.tools.check.checking import TOOL, CheckOptions
+from bare_earth.algorithms.tools.check.checking import CheckOptions
 from bare_earth.algorithms.tools.check.checkpoints import Checkpoints
 from bare_earth.algorithms.tools.check.reading import read_checkpoints
-from bare_earth.algorithms.tools.running import run
 
 pyproj = pytest.importorskip("pyproj")
-EAST, NORTH, SIZE = 500_000.0, 5_600_000.0, 100.0
-CORNER = np.array([EAST, NORTH])
-
-
-def height(x, y):
-    """Return the true height of land that is a plane in the west, and rolls in the east."""
-    return 50.0 + 0.05 * x + 0.02 * y + np.where(x > 50, 3.0 * np.sin((x - 50) / 9.0), 0.0)
-
-
-def cloud(count=8_000, seed=1):
-    """Return x, y, z and classes: ground with a building of 30 x 20 m, and trees in the north."""
-    random = np.random.default_rng(seed)
-    x, y = (np.round(random.uniform(0, SIZE, count), 3) for _ in range(2))
-    z, classes = height(x, y), np.full(count, 2, np.uint8)
-    is_building = (x > 10) & (x < 40) & (y > 40) & (y < 60)
-    trees = (y > 80) & (random.random(count) < 0.5)
-    z[is_building] += 8.0
-    z[trees] += random.uniform(2, 9, trees.sum())
-    classes[is_building], classes[trees] = 6, 5
-    return x, y, z, classes
-
-
-def write(path, x, y, z, classes, crs="EPSG:25832", returns=1):
-    offset = EAST, NORTH, 0.0
-    return write_points(path, x, y, z, classes, offset=offset, crs=crs, number_of_returns=returns)
 
 
 @pytest.fixture(scope="module")
@@ -54,24 +28,11 @@ def survey(tmp_path_factory):
     return write(tmp_path_factory.mktemp("survey") / "in.laz", *cloud())
 
 
-def places(count=40, seed=2):
-    """Return x and y of checkpoints on open ground, away from the edge."""
-    random = np.random.default_rng(seed)
-    x, y = random.uniform(5, 95, (2, 10 * count))
-    free = (x < 5) | (x > 45) | (y < 35) | (y > 65)
-    return np.column_stack((x, y))[free][:count]
-
-
 def points(xy, errors=0.0, covers=None, names=None):
     """Return checkpoints of which the ground is too high by some errors."""
     x, y = xy.T
     rows = np.column_stack((x + EAST, y + NORTH, height(x, y) - errors))
     return Checkpoints.of(rows, names, covers)
-
-
-def check(paths, checkpoints=None, *sets, outputs=None, progress=Progress(), **others):
-    inputs = {"sources": paths, "checkpoints": checkpoints, **others}
-    return run(TOOL, inputs, outputs or {}, sets, progress)
 
 
 def tin(x, y, z, classes):

@@ -4,6 +4,7 @@ import laspy
 import numpy as np
 import pytest
 from matrices import covering, quick
+from runs import Heard
 from surveys import write_points
 
 from bare_earth import BareEarthError, classify
@@ -68,9 +69,7 @@ def test_in_an_area_the_result_is_that_of_the_whole_survey(parameters, long_scen
     assert (found[~inside] == 6).all() and np.array_equal(selected, inside)
 
 
-def test_however_many_points_are_looked_at_together_the_result_is_the_same(
-    las, monkeypatch, long_scene
-):
+def test_however_many_points_are_looked_at_together_the_result_is_the_same(monkeypatch, long_scene):
     random = np.random.default_rng(9)
     classes = random.choice([1, 2, 5, 7, 9], long_scene.count)
     cloud = cloud_of(long_scene, classes=classes.astype(np.uint8))
@@ -81,7 +80,7 @@ def test_however_many_points_are_looked_at_together_the_result_is_the_same(
     for most in (1 << 19, 700):
         monkeypatch.setattr(cloud_module, "_PART", most)
         monkeypatch.setattr(memory_store, "_CHOSEN", most)
-        progress = las.Heard()
+        progress = Heard()
         found = classify_cloud(cloud, TIN, selection, progress, box(20, 5, 400, 35))
         assert progress.fractions == sorted(progress.fractions)
         results.append((*found, progress.infos, progress.warnings))
@@ -174,9 +173,9 @@ def test_geographic_coordinates_are_told_before_an_area_without_points(scene):
 # Known ground
 
 
-def test_known_ground_stays_ground_whatever_the_method_finds(scene, monkeypatch, las):
+def test_known_ground_stays_ground_whatever_the_method_finds(scene, monkeypatch):
     watched(monkeypatch)
-    progress, classes = las.Heard(), np.ones(scene[0].count, np.uint8)
+    progress, classes = Heard(), np.ones(scene[0].count, np.uint8)
     classes[::7], classes[::9] = 8, 5
     cloud, selection = cloud_of(scene[0], classes), Selection(seed_classes=(8,))
     found, _ = classify_cloud(cloud, SLOPE, selection, progress)
@@ -187,8 +186,8 @@ def test_known_ground_stays_ground_whatever_the_method_finds(scene, monkeypatch,
     assert any("does not start from known ground" in text for text in progress.infos)
 
 
-def test_a_method_that_takes_known_ground_gets_it(scene, monkeypatch, las):
-    given, progress = watched(monkeypatch, takes_known_ground=True), las.Heard()
+def test_a_method_that_takes_known_ground_gets_it(scene, monkeypatch):
+    given, progress = watched(monkeypatch, takes_known_ground=True), Heard()
     points = scene[0].take(~is_low(scene[0]))
     classes = np.ones(points.count, np.uint8)
     classes[::7], classes[::9] = 2, 9
@@ -214,8 +213,8 @@ def test_known_ground_is_context_outside_the_area_and_counts_there_only(scene, m
     assert np.array_equal(found, classes)
 
 
-def test_without_known_ground_there_is_a_warning(scene, las):
-    progress = las.Heard()
+def test_without_known_ground_there_is_a_warning(scene):
+    progress = Heard()
     classify_cloud(cloud_of(scene[0]), SLOPE, Selection(seed_classes=(2, 8)), progress)
     assert progress.warnings == ["There are no points of known ground (class 2, 8)."]
 
@@ -238,11 +237,11 @@ def is_low(points):
 
 
 @pytest.mark.parametrize("method", quick(METHODS, "grid-minimum"))
-def test_low_outliers_go_to_class_7_where_wanted(method, scene, las):
+def test_low_outliers_go_to_class_7_where_wanted(method, scene):
     (points, truth), parameters = scene, METHODS[method].parameters()
     low = is_low(points)
     assert low.sum() == 6 and not truth[low].any()
-    cloud, progress = cloud_of(points), las.Heard()
+    cloud, progress = cloud_of(points), Heard()
     plain, _ = classify_cloud(cloud, parameters)
     assert (plain[low] == 1).all()
     found, _ = classify_cloud(cloud, parameters, Selection(low_noise_class=True), progress)

@@ -5,10 +5,9 @@ import shlex
 
 import numpy as np
 import pytest
-from conftest import Heard
-from runs import CancelAt
+from html_tags import Tags
+from runs import CancelAt, Heard
 from surveys import classes_of, write_points
-from test_assessment import Tags
 
 from bare_earth import BareEarthError, Cancelled, classify, compare_settings
 from bare_earth.algorithms.cli import main

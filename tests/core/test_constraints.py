@@ -6,8 +6,7 @@ import re
 import laspy
 import numpy as np
 import pytest
-from conftest import Heard
-from runs import FAST, FAST_WORDS
+from runs import FAST, FAST_WORDS, Heard
 from surveys import ORIGIN, cut, heights_of, write_points
 
 from bare_earth import BareEarthError, classify, terrain
@@ -282,7 +281,7 @@ def test_many_files_give_the_raster_of_one(wall, tmp_path):
 
 
 @pytest.mark.parametrize("how", ["one", pytest.param("parts", marks=pytest.mark.long), "many"])
-def test_a_run_that_classifies_makes_the_terrain_of_what_it_writes(tmp_path, how, las):
+def test_a_run_that_classifies_makes_the_terrain_of_what_it_writes(tmp_path, how):
     # A lake with points on it, in a slope; a wall that a line knows.
     x, y = scatter(SIZE, 1.0, seed=4)
     z = 10.0 + 0.05 * x + np.where(y > 80.0, 4.0, 0.0)
@@ -301,7 +300,7 @@ def test_a_run_that_classifies_makes_the_terrain_of_what_it_writes(tmp_path, how
         source, target = cut(tmp_path / "tiles", integers, 4), tmp_path / "out"
     else:
         target = tmp_path / "out.laz"
-    memory, progress = 0.001 if how == "parts" else None, las.Heard()
+    memory, progress = 0.001 if how == "parts" else None, Heard()
     classify(source, target, memory=memory, progress=progress, **FAST, **once, **known)
     assert any("do not fit into the memory" in text for text in progress.infos) == bool(memory)
     terrain(target, **again, **known)
@@ -348,10 +347,10 @@ def test_the_terrain_command_takes_files_of_lines_and_polygons(wall, tmp_path, c
     assert "lines.geojson holds no polygon" in capsys.readouterr().err
 
 
-def test_lines_far_from_any_ground_are_told(wall, tmp_path, las):
+def test_lines_far_from_any_ground_are_told(wall, tmp_path):
     source, _ = wall
     line = _line((900.0, 900.0, np.nan), (950.0, 900.0, np.nan))
-    progress = las.Heard()
+    progress = Heard()
     _raster(
         source, tmp_path / "dtm.tif", progress,
         breaklines=(line, _line((9.0, 9.0, 10.0), (19.0, 9.0, 10.0))),

@@ -4,7 +4,7 @@ import json
 
 import numpy as np
 import pytest
-from runs import CancelAt
+from runs import CancelAt, Heard
 from surveys import ORIGIN, write_points
 
 from bare_earth import BareEarthError, Cancelled, classify, contours
@@ -193,9 +193,9 @@ def test_intervals_are_one_two_or_five(tmp_path):
     assert Contours().interval(100.0, 101.0, 0.3048) == 0.5  # feet
 
 
-def test_the_unit_of_feet_is_told(tmp_path, las):
+def test_the_unit_of_feet_is_told(tmp_path):
     path = raster(tmp_path / "dtm.tif", bumps() * 3, epsg=2264, unit="US survey foot")
-    progress = las.Heard()
+    progress = Heard()
     interval = contours(path, tmp_path / "a.geojson", progress=progress)
     assert interval.unit == "US survey ft" and "US survey ft" in progress.infos[-1]
 

@@ -8,6 +8,7 @@ import pytest
 from fulldisks import TELLS, become_full
 from laspy import CopcReader
 from matrices import covering
+from runs import Heard
 from surveys import write_classified
 
 from bare_earth import BareEarthError, Cancelled, Progress, info
@@ -227,7 +228,7 @@ def few_in_memory(small_leaves, monkeypatch):
 def both_ways(las, source, changes):
     """Write a file with all of its points in memory, and with as few as can be."""
     targets = [las.folder / f"{name}.copc.laz" for name in ("much", "little")]
-    heard = [las.Heard(), las.Heard()]
+    heard = [Heard(), Heard()]
     for target, memory, progress in zip(targets, (None, 1), heard):
         write_changed(source, target, changes, progress, memory=memory)
     assert {path.name for path in las.folder.iterdir()} == {
@@ -365,7 +366,7 @@ def test_copc_becomes_plain_in_its_own_order(las, small_leaves, written):
     behind = [las.evlr(b"behind", 9, b"the points")]
     plain = las.make(version=4, point_format=6, records=records, evlrs=behind)
     write_classified(plain, source, np.full(10_000, 5, np.uint8))
-    target, progress = las.folder / f"out.{written}", las.Heard()
+    target, progress = las.folder / f"out.{written}", Heard()
     write_classified(source, target, classes_of(10_000), progress)
     before, after = laspy.read(source), laspy.read(target)
     np.testing.assert_array_equal(after.xyz, before.xyz)
@@ -419,7 +420,7 @@ def test_geotiff_keys_become_text_with_the_unit_of_the_heights(las):
     pytest.importorskip("pyproj")
     keys = geokeys((1024, 0, 1, 1), (3072, 0, 1, 32632), (4099, 0, 1, 9003))
     source = las.make(vlrs=[las.vlr(b"LASF_Projection", 34735, keys)])
-    target, progress = las.folder / "out.copc.laz", las.Heard()
+    target, progress = las.folder / "out.copc.laz", Heard()
     write_classified(source, target, classes_of(60), progress)
     before, after = read_cloud(source).crs, read_cloud(target).crs
     assert (before.horizontal_unit, before.vertical_unit) == (1.0, 1200 / 3937)
@@ -432,7 +433,7 @@ def test_geotiff_keys_become_text_with_the_unit_of_the_heights(las):
 def test_geotiff_keys_that_no_text_is_known_for_stay(las):
     keys = geokeys((1024, 0, 1, 1), (3072, 0, 1, 32767), (3076, 0, 1, 9002))
     source = las.make(vlrs=[las.vlr(b"LASF_Projection", 34735, keys)])
-    target, progress = las.folder / "out.copc.laz", las.Heard()
+    target, progress = las.folder / "out.copc.laz", Heard()
     write_classified(source, target, classes_of(60), progress)
     assert any("GeoTIFF keys" in text for text in progress.warnings)
     assert read_cloud(target).crs.horizontal_unit == 0.3048
@@ -443,7 +444,7 @@ def test_waveforms_that_are_left_out_are_told(las, point_format):
     version = 4 if point_format > 5 else 3
     descriptor = las.vlr(b"LASF_Spec", 100, bytes(26))
     source = las.make(version=version, point_format=point_format, vlrs=[descriptor], encoding=0x04)
-    target, progress = las.folder / "out.copc.laz", las.Heard()
+    target, progress = las.folder / "out.copc.laz", Heard()
     write_classified(source, target, classes_of(60), progress)
     assert sum("waveforms" in text for text in progress.warnings) == 1
     assert not any(record[2:11] == b"LASF_Spec" for record in las.split(target).vlrs)
@@ -451,7 +452,7 @@ def test_waveforms_that_are_left_out_are_told(las, point_format):
 
 
 def test_a_changed_format_and_lost_header_bytes_are_told(las):
-    source, progress = las.make(point_format=3, user_bytes=b"our own"), las.Heard()
+    source, progress = las.make(point_format=3, user_bytes=b"our own"), Heard()
     write_classified(source, las.folder / "out.copc.laz", classes_of(60), progress)
     assert "Point format 3 becomes 7, as COPC needs it." in progress.infos
     assert any("added to the header" in text for text in progress.warnings)

@@ -1,6 +1,7 @@
 import struct
 
 import pytest
+from runs import Heard
 
 from bare_earth.algorithms.crs import provider
 from bare_earth.algorithms.crs.matching import is_other_datum
@@ -129,7 +130,7 @@ def keys(**values):
 
 
 def crs_of(las, *vlrs, encoding=0):
-    progress = las.Heard()
+    progress = Heard()
     layout = open_las(las.make(vlrs=vlrs, encoding=encoding))
     return read_crs(layout, progress), progress
 
@@ -244,7 +245,7 @@ def test_units_come_from_all_records(las, point_format, encoding, text, values, 
             version=4, point_format=point_format, encoding=encoding,
         )
     )  # fmt: skip
-    progress = las.Heard()
+    progress = Heard()
     crs = read_crs(layout, progress)
     assert (crs.horizontal_unit, crs.vertical_unit) == pytest.approx(expected, rel=1e-9)
     contradicts = text == projcs(SURVEY_1) and values == {"unit": 9001}
@@ -264,7 +265,7 @@ def test_a_text_behind_the_points_adds_to_keys_before_them(las, encoding):
 def test_two_texts_add_to_each_other_and_contradictions_are_told(las):
     before = las.vlr(b"LASF_Projection", 2112, projcs(METRE_1).encode())
     for behind, contradicts in ((COMPOUND_1, False), (projcs(SURVEY_1), True), ("", False)):
-        record, progress = las.evlr(b"LASF_Projection", 2112, behind.encode()), las.Heard()
+        record, progress = las.evlr(b"LASF_Projection", 2112, behind.encode()), Heard()
         source = las.make(
             "in.laz", version=4, point_format=6, encoding=0x10, vlrs=[before], evlrs=[record]
         )

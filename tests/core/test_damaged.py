@@ -14,7 +14,8 @@ import lazrs
 import numpy as np
 import pytest
 import surveys
-from conftest import GPS_TIMES, make_records
+from las_files import GPS_TIMES, make_records
+from runs import Heard
 from surveys import write_classified
 
 from bare_earth import BareEarthError, Progress, classify, info
@@ -314,7 +315,7 @@ def test_an_input_that_changed_since_it_was_read_is_refused(las, kind, name, poi
 def test_an_input_that_changes_while_it_is_written_is_refused(las):
     source, target = las.make("a.laz", version=4, point_format=6), las.folder / "out.las"
 
-    class Meanwhile(las.Heard):
+    class Meanwhile(Heard):
         def report(self, fraction):
             replace_by_another(source, "renamed")
 
@@ -366,7 +367,7 @@ def test_a_crs_too_long_for_copc_stays_where_it_is(las):
     text = f'LOCAL_CS["{"x" * 65_600}",UNIT["metre",1]]'.encode()
     record = las.evlr(b"LASF_Projection", 2112, text)
     source = las.make(version=4, point_format=6, encoding=0x10, evlrs=[record])
-    progress, target = las.Heard(), las.folder / "out.copc.laz"
+    progress, target = Heard(), las.folder / "out.copc.laz"
     write_classified(source, target, np.zeros(60, np.uint8), progress)
     assert any("too long" in text for text in progress.warnings)
     assert open_las(target).vlr(("LASF_Projection", 2112)).data == text
@@ -391,7 +392,7 @@ def test_a_crs_that_the_library_for_rasters_does_not_know_is_told_and_not_printe
     pytest.importorskip("rasterio")
     record = las.vlr(b"LASF_Projection", 2112, b'PROJCS["p",UNIT["metre",1]]')
     source = las.make(version=4, point_format=6, encoding=0x10, vlrs=[record])
-    progress, out = las.Heard(), las.folder / "dtm.tif"
+    progress, out = Heard(), las.folder / "dtm.tif"
     how = {"from_classes": range(256), "dtm": out, "progress": progress}  # of random numbers
     classify(source, las.folder / "out.las", **how, **METHOD)
     assert any("without a CRS" in text for text in progress.warnings)
@@ -405,8 +406,8 @@ def test_codes_that_are_none_are_left_out(code):
 
 
 @pytest.mark.parametrize("unit", ["1e308", "1e-308", "nan", "-1", "0", "1e7"])
-def test_units_that_are_none_are_told(las, unit):
-    progress = las.Heard()
+def test_units_that_are_none_are_told(unit):
+    progress = Heard()
     crs = crs_of_wkt(f'PROJCS["p",UNIT["metre",{unit}]]', progress)
     assert crs.horizontal_unit == 1.0 and "is not known" in progress.warnings[0]
 

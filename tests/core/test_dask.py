@@ -21,6 +21,8 @@ from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core import version
 from bare_earth.algorithms.engine import cluster as cluster_module
 
+pytestmark = pytest.mark.processes
+
 FAST = {"method": "slope", "preset": "whitebox"}
 KILLS = int(os.environ.get("BARE_EARTH_KILLS", "10"))
 

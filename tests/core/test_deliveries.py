@@ -10,10 +10,9 @@ import laspy
 import numpy as np
 import pytest
 import toy_delivery
-from conftest import Heard
 from independent_water import compare, corners_in_flat_water
 from matrices import quick
-from runs import FAST, FAST_WORDS
+from runs import FAST, FAST_WORDS, Heard
 from scipy.spatial import cKDTree
 from surveys import classes_of, finished, heights_of, write_points
 

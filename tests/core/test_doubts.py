@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from matrices import quick
-from runs import memory_store
+from runs import Heard, memory_store
 from surveys import cloud_of
 
 from bare_earth.algorithms.engine.blocks import Blocks
@@ -27,8 +27,8 @@ def land(width, depth, outliers=0.0, density=2.0, seed=4):
     return cloud_of(*(np.round(values * 100) for values in (x, y, z)))
 
 
-def warnings_of(cloud, parameters, las):
-    progress = las.Heard()
+def warnings_of(cloud, parameters):
+    progress = Heard()
     classify_cloud(cloud, parameters, progress=progress)
     return progress.warnings
 
@@ -64,8 +64,8 @@ def test_the_size_is_what_was_given(name, values, width, las):
     assert told == [True, False]
 
 
-def test_the_same_warning_of_several_blocks_is_told_once(las):
-    cloud, progress = land(400, 30), las.Heard()
+def test_the_same_warning_of_several_blocks_is_told_once():
+    cloud, progress = land(400, 30), Heard()
     blocks = Blocks(100.0, 50.0)
     part = (cloud, np.ones(cloud.count, bool))
     store = memory_store([part], survey_frame(cloud.crs), blocks)

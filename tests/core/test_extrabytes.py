@@ -5,7 +5,7 @@ import struct
 import laspy
 import numpy as np
 import pytest
-from conftest import EVERY
+from las_files import EVERY
 from matrices import covering
 
 from bare_earth import BareEarthError

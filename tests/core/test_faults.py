@@ -23,9 +23,10 @@ from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.engine import workers
 from bare_earth.algorithms.rasters.geotiff import read_raster
 
-pytestmark = pytest.mark.skipif(
-    sys.platform != "linux", reason="it needs namespaces, and kills by signals"
-)
+pytestmark = [
+    pytest.mark.processes,
+    pytest.mark.skipif(sys.platform != "linux", reason="it needs namespaces, and kills by signals"),
+]
 KILLS = int(os.environ.get("BARE_EARTH_KILLS", "10"))
 
 # What each command is asked for; OUT is a folder with the files of a run before.
@@ -190,7 +191,7 @@ def test_a_full_disk_changes_nothing_and_is_told_in_a_sentence(name, place, inpu
     script = f"""
 import sys
 from pathlib import Path
-sys.path[:0] = {sys.path!r}
+sys.path[:0] = {[str(Path(__file__).parent), *sys.path]!r}
 import test_faults
 paths = map(Path, {[str(enough), str(out), str(out / place)]!r})
 ends = test_faults._on_full_disks({name!r}, {inputs!r}, *paths, {sizes!r})

@@ -11,9 +11,9 @@ import struct
 import independent
 import numpy as np
 import pytest
-from conftest import EVERY, evlr, las_bytes, make_records, vlr
 from copcs import many_nodes
 from independent import CLASS, KEY_POINT, copc_nodes, in_any_order, meaning, without
+from las_files import EVERY, evlr, las_bytes, make_records, vlr
 from matrices import covering
 from runs import said, temporary_in
 from surveys import write_classified

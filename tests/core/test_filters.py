@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from matrices import covering, quick
 from realdata import real
-from runs import CancelAt
+from runs import CancelAt, Heard
 
 from bare_earth import BareEarthError, Cancelled
 from bare_earth.algorithms.core.points import Points
@@ -86,8 +86,8 @@ def test_a_cancel_ends_the_classification(parameters):
 
 
 @pytest.mark.parametrize("parameters", [*PARAMETERS, *CLASSIC])
-def test_progress_never_goes_back(parameters, las):
-    progress = las.Heard()
+def test_progress_never_goes_back(parameters):
+    progress = Heard()
     method_of(parameters).classify(village()[0], parameters, progress)
     assert len(progress.fractions) > 5 and np.diff(progress.fractions).min() >= 0.0
     assert 0.9 < progress.fractions[-1] <= 1.0
@@ -187,12 +187,12 @@ def test_noisy_ground_stays(method):
 
 
 @pytest.mark.parametrize("method", METHODS)
-def test_scattered_low_outliers_do_not_take_the_ground_of_a_dense_cloud_away(method, las):
+def test_scattered_low_outliers_do_not_take_the_ground_of_a_dense_cloud_away(method):
     # Nearly each square metre has one.
     scene = make("drone_noisy", seed=4, low_outliers=4e-3, size=24.0)
     lows = scene.classes == 7
     assert lows.sum() > 24.0**2
-    told = las.Heard()
+    told = Heard()
     found = METHODS[method].ground(scene.points, METHODS[method].parameters(), told).ground
     assert found[scene.ground].mean() > 0.97
     assert found[lows].mean() < 0.02

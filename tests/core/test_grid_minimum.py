@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from conftest import Heard
+from runs import Heard
 
 from bare_earth import BareEarthError
 from bare_earth.algorithms.core.points import Points

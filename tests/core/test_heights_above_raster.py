@@ -8,9 +8,8 @@ import numpy as np
 import pyproj
 import pytest
 import rasterio
-from conftest import Heard
 from realdata import real
-from runs import said
+from runs import Heard, said
 from surveys import ORIGIN, write_points
 
 from bare_earth import BareEarthError, Progress, heights

@@ -11,6 +11,8 @@ from surveys import write_points
 
 from bare_earth.algorithms.core.imports import import_early
 
+pytestmark = pytest.mark.processes
+
 # Packages, and modules that are imported if they are: `sys.modules` has some packages before.
 _NEVER = {
     "boto3": "boto3.session",

@@ -3,10 +3,9 @@
 import laspy
 import numpy as np
 import pytest
-from conftest import Heard
 from matrices import quick
 from realdata import real
-from runs import said
+from runs import Heard, said
 from surveys import heights_of, write_points
 
 from bare_earth import classify, terrain

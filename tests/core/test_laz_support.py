@@ -1,8 +1,6 @@
 """Getting a package for QGIS's Python by pip or from a wheel; the package here is a made one."""
 
-import base64
 import functools
-import hashlib
 import importlib
 import importlib.util
 import os
@@ -14,13 +12,13 @@ import zipfile
 from pathlib import Path
 
 import pytest
+from wheels import PACKAGE, make_wheel, tag_here
 
 from bare_earth import BareEarthError
 from bare_earth.plugin.libraries import folders, laz_support, pip, wheels
 from bare_earth.plugin.libraries.build import Build
 from bare_earth.plugin.libraries.laz_support import LazSupport
 
-PACKAGE = "tinylaz"
 LINUX = Build((3, 11), "linux", "x86_64", (2, 36))
 MUSL = Build((3, 11), "linux", "x86_64")
 WINDOWS = Build((3, 12), "win", "amd64")
@@ -72,34 +70,6 @@ def test_pip_agrees_on_what_this_python_can_load():
     system = next(iter(of_wheels)).split("-", 2)[2]
     for other in (f"cp27-cp27m-{system}", f"{python}-{python}-win_mips", f"cp399-cp399-{system}"):
         assert other not in supported and not here.takes(other)
-
-
-def tag_here():
-    """Return a tag that this Python takes, of a compiled package."""
-    build = Build.here()
-    return f"{build.name.partition('-')[0]}-none-any"
-
-
-def make_wheel(
-    path, files=None, name=PACKAGE, tag=None, record=True, links=(), compression=zipfile.ZIP_STORED
-):
-    """Write a wheel; `record` False leaves the hashes wrong."""
-    info = f"{name}-1.0.dist-info"
-    content = {f"{name}/__init__.py": "made = True\n"} if files is None else dict(files)
-    content[f"{info}/WHEEL"] = f"Wheel-Version: 1.0\nTag: {tag or tag_here()}\n"
-    content[f"{info}/METADATA"] = f"Metadata-Version: 2.1\nName: {name}\nVersion: 1.0\n"
-    lines = []
-    with zipfile.ZipFile(path, "w", compression) as archive:
-        for file, text in content.items():
-            digest = hashlib.sha256(text.encode()).digest() if record else b"\0" * 32
-            value = base64.urlsafe_b64encode(digest).rstrip(b"=").decode()
-            lines.append(f"{file},sha256={value},{len(text)}\n")
-            entry = zipfile.ZipInfo(file)
-            entry.compress_type = compression
-            entry.external_attr = (0o120777 if file in links else 0o644) << 16
-            archive.writestr(entry, text)
-        archive.writestr(f"{info}/RECORD", "".join(lines) + f"{info}/RECORD,,\n")
-    return path
 
 
 @pytest.fixture

@@ -5,8 +5,7 @@ import json
 import laspy
 import numpy as np
 import pytest
-from conftest import Heard
-from runs import CancelAt
+from runs import CancelAt, Heard
 
 from bare_earth import BareEarthError, Cancelled, assess, water_classes
 from bare_earth.algorithms.cli import main

@@ -20,6 +20,8 @@ from bare_earth.algorithms.tools.rasters.parameters import TerrainModel
 from bare_earth.algorithms.tools.rasters.rows import RasterFiles
 from bare_earth.algorithms.tools.rasters.step import MakeRasters
 
+pytestmark = pytest.mark.processes
+
 # So many points that the arrays of a single tile of `DenseSurface` hardly count.
 COUNT, SIDE = 250_000, 311.0
 MAPS = {name: Path(f"{name}.tif") for name in ("dtm", "dsm")}

@@ -5,6 +5,7 @@ import itertools
 import numpy as np
 import pytest
 from matrices import quick
+from runs import Heard
 
 from bare_earth import BareEarthError
 from bare_earth.algorithms.core.points import Points
@@ -36,8 +37,8 @@ def test_every_ground_point_is_within_the_tolerance(above, below):
         assert np.count_nonzero(keys) < 0.6 * points.count
 
 
-def test_progress_never_goes_back(las):
-    progress = las.Heard()
+def test_progress_never_goes_back():
+    progress = Heard()
     model_key_points(_hills(), progress=progress)
     assert len(progress.fractions) > 5 and np.diff(progress.fractions).min() >= 0.0
 

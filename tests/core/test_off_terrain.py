@@ -3,7 +3,7 @@ import json
 
 import numpy as np
 import pytest
-from conftest import Heard
+from runs import Heard
 
 from bare_earth import BareEarthError
 from bare_earth.algorithms.cli import main

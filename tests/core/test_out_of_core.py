@@ -8,11 +8,10 @@ from types import SimpleNamespace
 import laspy
 import numpy as np
 import pytest
-from conftest import Heard
 from fulldisks import TELLS, become_full
 from matrices import covering
 from realdata import real
-from runs import FAST, CancelAt, environment
+from runs import FAST, CancelAt, Heard, environment
 
 import bare_earth
 from bare_earth import BareEarthError, Cancelled

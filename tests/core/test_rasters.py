@@ -19,6 +19,8 @@ from bare_earth.algorithms.engine.jobs import SinkJob
 from bare_earth.algorithms.engine.workers import Threads
 from bare_earth.algorithms.tin.triangulation import Tin, hull_corners
 
+pytestmark = pytest.mark.processes
+
 rasterio = pytest.importorskip("rasterio")
 
 SLOPE = {"method": "slope", "preset": "whitebox"}

@@ -4,10 +4,10 @@ import laspy
 import lazrs
 import numpy as np
 import pytest
-from conftest import EVERY
+from las_files import EVERY
 from matrices import covering
 from realdata import real
-from runs import CancelAt, said
+from runs import CancelAt, Heard, said
 
 import bare_earth
 from bare_earth import Cancelled
@@ -81,7 +81,7 @@ def test_return_numbers_begin_at_1_whatever_the_file_says(las, pairs, is_from_ze
     np.testing.assert_array_equal(cloud.number_of_returns, (records[:, 14] >> 4) + both)
     (part,) = read_parts(cloud.file)
     np.testing.assert_array_equal(part.return_number, cloud.return_number)
-    told = las.Heard()
+    told = Heard()
     assert set(bare_earth.info(cloud.path, progress=told).returns) == {
         number for number, _ in pairs
     }
@@ -106,7 +106,7 @@ def test_returns_from_zero_give_the_ground_and_stay_as_they_are(tmp_path, name):
 
 def test_several_chunks_are_joined_in_order(las, monkeypatch):
     monkeypatch.setattr(progress, "_FIRST_PIECE", 17)
-    records, told = las.records(1), las.Heard()
+    records, told = las.records(1), Heard()
     cloud = read_cloud(las.make("in.laz", records=records), told)
     np.testing.assert_array_equal(cloud.x, records[:, :4].copy().view("<i4")[:, 0])
     assert told.fractions == pytest.approx([17 / 60, 51 / 60, 1])

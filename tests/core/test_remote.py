@@ -6,7 +6,7 @@ import time
 
 import numpy as np
 import pytest
-from remote_server import ENDLESS, serving
+from remote_server import ENDLESS
 
 from bare_earth import BareEarthError, Cancelled, Progress
 from bare_earth.algorithms.core.progress import Notes
@@ -25,17 +25,6 @@ from bare_earth.algorithms.remote.web_reader import WebReader
 
 DATA = np.random.default_rng(0).integers(0, 256, 1_000_000, dtype=np.uint8).tobytes()
 PIECES = [(100_000, 140_000), (141_000, 180_000), (400_000, 500_000), (900_000, 950_000)]
-
-
-@pytest.fixture
-def server():
-    with serving() as running:
-        yield running
-
-
-@pytest.fixture(autouse=True)
-def no_pauses(monkeypatch):
-    monkeypatch.setattr(transfers, "_FIRST_PAUSE", 0.001)
 
 
 def fetched(address, folder, progress=Progress(), pieces=PIECES, refusal="say so"):

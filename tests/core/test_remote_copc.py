@@ -6,10 +6,9 @@ import struct
 import laspy
 import numpy as np
 import pytest
-from conftest import evlr, las_bytes, make_records
 from copcs import many_nodes
+from las_files import evlr, las_bytes, make_records
 from matrices import covering
-from remote_server import serving
 from runs import said
 from surveys import write_classified
 
@@ -17,20 +16,9 @@ import bare_earth
 from bare_earth import BareEarthError, Cancelled, Progress
 from bare_earth.algorithms.las.opening import open_las
 from bare_earth.algorithms.las.records import read_records
-from bare_earth.algorithms.remote import copc, files, transfers
+from bare_earth.algorithms.remote import copc, files
 
 BOX = (400_000.55, 5_000_000.05, 400_052.0, 5_000_000.65)
-
-
-@pytest.fixture
-def server():
-    with serving() as running:
-        yield running
-
-
-@pytest.fixture(autouse=True)
-def no_pauses(monkeypatch):
-    monkeypatch.setattr(transfers, "_FIRST_PAUSE", 0.001)
 
 
 @pytest.fixture(scope="module")

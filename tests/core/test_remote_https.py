@@ -8,7 +8,6 @@ from remote_server import serving
 
 import bare_earth
 from bare_earth import BareEarthError
-from bare_earth.algorithms.remote import transfers
 
 trustme = pytest.importorskip("trustme")
 BOX = (400_000.55, 5_000_000.05, 400_052.0, 5_000_000.65)
@@ -22,7 +21,6 @@ def authority():
 @pytest.fixture
 def serve(authority, monkeypatch, tmp_path):
     """Return what serves a file by https, with a certificate for a name."""
-    monkeypatch.setattr(transfers, "_FIRST_PAUSE", 0.001)
     monkeypatch.setenv("no_proxy", "*")
 
     def context(*names, **wanted):

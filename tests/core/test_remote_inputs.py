@@ -17,7 +17,7 @@ import bare_earth
 from bare_earth import BareEarthError, arrays
 from bare_earth.algorithms.las import copc_octree
 from bare_earth.algorithms.library.remote_points import margin_of
-from bare_earth.algorithms.remote import files, transfers, whole
+from bare_earth.algorithms.remote import files, whole
 from bare_earth.algorithms.remote.cache import cache_of
 from bare_earth.algorithms.remote.parts import Parts, remove_parts
 from bare_earth.algorithms.tools.ground.method import TileMethod
@@ -32,7 +32,6 @@ SECRET = "sig=s3cr3t"
 
 @pytest.fixture
 def server(monkeypatch, tmp_path):
-    monkeypatch.setattr(transfers, "_FIRST_PAUSE", 0.001)
     monkeypatch.setenv("BARE_EARTH_CACHE", str(tmp_path / "cache"))
     with serving() as running:
         yield running

@@ -68,7 +68,6 @@ class Planet:
 
 @pytest.fixture
 def planet(monkeypatch):
-    monkeypatch.setattr(transfers, "_FIRST_PAUSE", 0.001)
     monkeypatch.setattr(signing, "_TOKENS", signing._TOKENS.replace("https", "http"))
     # So that there are many requests.
     monkeypatch.setattr(files, "_MOST", 10_000)

@@ -8,7 +8,6 @@ from runs import said
 
 import bare_earth
 from bare_earth import BareEarthError
-from bare_earth.algorithms.remote import transfers
 
 fsspec = pytest.importorskip("fsspec")
 BOX = (400_000.55, 5_000_000.05, 400_052.0, 5_000_000.65)
@@ -80,7 +79,6 @@ def test_the_errors_of_a_store_are_told(tmp_path, monkeypatch, raised, words):
         def info(self, path, refresh):
             raise raised(f"of s3 S3CRET@{path}" if raised is not ImportError else "Install s3fs")
 
-    monkeypatch.setattr(transfers, "_FIRST_PAUSE", 0.001)
     monkeypatch.setattr(fsspec, "filesystem", lambda name: Store())
     code, _, errors = said("fetch", "s3://lidar/a.copc.laz", tmp_path / "part.laz")
     assert code == 1 and "S3CRET" not in errors

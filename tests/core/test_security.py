@@ -16,16 +16,18 @@ from pathlib import Path
 import lazrs
 import numpy as np
 import pytest
-from conftest import make_records
+from las_files import make_records
 from runs import said
 from shipped import name_of, nodes
-from test_laz_support import PACKAGE, make_wheel
+from wheels import PACKAGE, make_wheel
 
 from bare_earth import BareEarthError
 from bare_earth.algorithms.las.opening import open_las
 from bare_earth.algorithms.survey.vpc import read_vpc, write_vpc
 from bare_earth.plugin.libraries import wheels
 from bare_earth.plugin.libraries.build import Build
+
+pytestmark = pytest.mark.processes
 
 UNIX = pytest.mark.skipif(os.name == "nt", reason="Windows has no such names")
 MORE = [UNIX, pytest.mark.long]

@@ -3,6 +3,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from runs import Heard
 
 from bare_earth import BareEarthError, Progress
 from bare_earth.algorithms.classes.corrections import Corrections
@@ -35,8 +36,8 @@ def selected_by(selection, cloud, progress, within=None):
     return selected
 
 
-def test_only_classes_without_a_further_meaning_take_part_and_roads(las):
-    heard, every = las.Heard(), np.arange(256)
+def test_only_classes_without_a_further_meaning_take_part_and_roads():
+    heard, every = Heard(), np.arange(256)
     decided = (0, 1, 2, 3, 4, 5, 6, 8, 12)
     selected = selected_by(Selection(), cloud_of(every), heard)
     assert np.flatnonzero(selected).tolist() == sorted((*decided, 10, 11))
@@ -46,8 +47,8 @@ def test_only_classes_without_a_further_meaning_take_part_and_roads(las):
     assert classes[others].tolist() == others.tolist()
 
 
-def test_the_log_names_the_classes_that_stay_and_how_to_classify_them(las):
-    heard = las.Heard()
+def test_the_log_names_the_classes_that_stay_and_how_to_classify_them():
+    heard = Heard()
     selected_by(Selection(), cloud_of([1, 9, 9, 10, 11, 11, 17, 64, 7]), heard)
     assert heard.infos == [
         "Noise is left out: 1 of class 7.",
@@ -57,14 +58,14 @@ def test_the_log_names_the_classes_that_stay_and_how_to_classify_them(las):
         " and do not take part. To classify them too, give from_classes='all'.",
         "4 of 9 points take part.",
     ]
-    heard = las.Heard()
+    heard = Heard()
     selected_by(Selection(from_classes=(1,)), cloud_of([1, 9]), heard)
     assert heard.infos == ["1 of 2 points take part."]
 
 
 @pytest.mark.parametrize("all_", ["all", "ALL", ["all"], ("All",)])
-def test_all_is_every_class_but_noise(las, all_):
-    heard, selection = las.Heard(), Selection(from_classes=all_, others="unclassified")
+def test_all_is_every_class_but_noise(all_):
+    heard, selection = Heard(), Selection(from_classes=all_, others="unclassified")
     cloud = cloud_of([0, 1, 2, 5, 6, 7, 18, 64, 9])
     selected = selected_by(selection, cloud, heard)
     assert selected.tolist() == [True] * 5 + [False, False, True, True]
@@ -92,11 +93,11 @@ def with_overlap(classes, flags):
     return dataclasses.replace(cloud_of(classes), overlap=np.array(flags, bool))
 
 
-def test_overlap_is_counted_and_left_out_on_demand(las):
-    heard, cloud = las.Heard(), with_overlap([1, 1, 12, 2], [0, 1, 0, 1])
+def test_overlap_is_counted_and_left_out_on_demand():
+    heard, cloud = Heard(), with_overlap([1, 1, 12, 2], [0, 1, 0, 1])
     assert selected_by(Selection(), cloud, heard).all()
     assert "3 points of overlap take part as others do." in heard.infos
-    heard, leave = las.Heard(), Selection(overlap="leave-out")
+    heard, leave = Heard(), Selection(overlap="leave-out")
     assert selected_by(leave, cloud, heard).tolist() == [1, 0, 0, 0]
     assert "3 points of overlap are left out." in heard.infos
     assert new_classes(leave, cloud, [1, 1, 1, 0]) == [2, 1, 12, 2]
@@ -124,8 +125,8 @@ def test_only_the_given_classes_take_part_noise_among_them_where_it_is_given():
     ]
 
 
-def test_withheld_points_take_no_part_and_are_told(las):
-    heard = las.Heard()
+def test_withheld_points_take_no_part_and_are_told():
+    heard = Heard()
     selected = selected_by(Selection(), cloud_of([1, 1, 1], withheld=[0, 1, 0]), heard)
     assert selected.tolist() == [True, False, True]
     assert "1 withheld point is left out." in heard.infos
@@ -142,22 +143,22 @@ def test_a_number_above_the_total_is_a_last_return():
     assert selected_by(Selection(), cloud, Progress()).tolist() == [1, 0]
 
 
-def test_points_without_return_numbers_all_take_part_and_it_is_told(las):
-    heard = las.Heard()
+def test_points_without_return_numbers_all_take_part_and_it_is_told():
+    heard = Heard()
     cloud = cloud_of([1] * 3, number=[0, 0, 0], total=[0, 0, 0])
     assert selected_by(Selection(), cloud, heard).all()
     assert heard.warnings == ["The points have no return numbers: all of them are used."]
 
 
-def test_some_points_without_return_numbers_are_single_returns_and_it_is_told(las):
-    heard = las.Heard()
+def test_some_points_without_return_numbers_are_single_returns_and_it_is_told():
+    heard = Heard()
     cloud = cloud_of([1] * 4, number=[0, 1, 1, 0], total=[0, 2, 1, 3])
     assert selected_by(Selection(), cloud, heard).tolist() == [1, 0, 1, 1]
     assert heard.warnings == ["2 points have no return number: they are taken as single returns."]
 
 
-def test_no_warning_of_return_numbers_where_all_returns_are_wanted(las):
-    heard = las.Heard()
+def test_no_warning_of_return_numbers_where_all_returns_are_wanted():
+    heard = Heard()
     selected_by(Selection(returns="all"), cloud_of([1], number=[0], total=[0]), heard)
     assert not heard.warnings
 
@@ -221,8 +222,8 @@ def test_another_class_of_the_ground():
     assert new_classes(Selection(to_class=8), cloud, [1, 0, 1, 0, 0]) == [8, 1, 8, 1, 5]
 
 
-def test_only_points_within_take_part(las):
-    heard, within = las.Heard(), np.array([0, 1, 1, 0], bool)
+def test_only_points_within_take_part():
+    heard, within = Heard(), np.array([0, 1, 1, 0], bool)
     assert selected_by(Selection(), cloud_of([1, 1, 7, 1]), heard, within).tolist() == [0, 1, 0, 0]
     assert "1 of 4 points take part." in heard.infos
 
@@ -240,12 +241,12 @@ def test_where_nothing_within_is_left_the_area_is_named(selection, cloud, text):
         selected_by(selection, cloud, Progress(), np.array([0, 1, 1], bool))
 
 
-def test_known_ground_takes_part_whatever_its_return_and_class_but_not_withheld(las):
+def test_known_ground_takes_part_whatever_its_return_and_class_but_not_withheld():
     cloud = cloud_of(
         [1, 2, 2, 8, 5, 2], number=[1, 1, 1, 1, 1, 1], total=[1, 1, 2, 2, 1, 1],
         withheld=[0, 0, 0, 0, 0, 1],
     )  # fmt: skip
-    selection, heard = Selection(from_classes=(1,), seed_classes=(2, 8)), las.Heard()
+    selection, heard = Selection(from_classes=(1,), seed_classes=(2, 8)), Heard()
     assert selected_by(selection, cloud, heard).tolist() == [1, 1, 1, 1, 0, 0]
     assert selection.known_ground(cloud).tolist() == [0, 1, 1, 1, 0, 0]
     assert "3 points of class 2, 8 are known ground." in heard.infos

@@ -6,10 +6,9 @@ import struct
 import laspy
 import numpy as np
 import pytest
-from conftest import Heard
 from matrices import quick
 from realdata import real
-from runs import FAST_WORDS, said
+from runs import FAST_WORDS, Heard, said
 from surveys import cut, strip, write
 
 import bare_earth

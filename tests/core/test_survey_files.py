@@ -2,6 +2,7 @@ import os
 import struct
 
 import pytest
+from runs import Heard
 
 from bare_earth import BareEarthError
 from bare_earth.algorithms.survey.files import Inputs, find_files, open_survey
@@ -155,7 +156,7 @@ def test_tiles_in_different_crs_are_refused(las, other, told):
 def test_one_crs_written_in_two_ways_is_one(las):
     tile(las, "a.las", wkt=metres("WGS 84 / UTM zone 32N", 32632))
     tile(las, "b.las", 100, wkt=metres("WGS_84_UTM_zone_32N"))
-    heard = las.Heard()
+    heard = Heard()
     assert len(open_survey([las.folder], progress=heard).tiles) == 2
     assert heard.warnings == []
 
@@ -194,7 +195,7 @@ def test_heights_of_another_datum_or_unit_are_refused_and_a_crs_helps(las, other
 def test_a_datum_that_is_not_stated_or_named_differently_is_told(las):
     tile(las, "a.las", wkt=metres("site", 25832))
     tile(las, "b.las", 100, wkt=heights("NZVD2016 height", "New Zealand Vertical Datum 2016"))
-    heard = las.Heard()
+    heard = Heard()
     assert open_survey([las.folder], progress=heard).crs.datum.crs == "NZVD2016 height"
     (info,) = [text for text in heard.infos if "datum" in text]
     assert info.startswith("No vertical datum is stated by a.las") and not heard.warnings
@@ -212,7 +213,7 @@ def test_files_with_a_placeholder_for_their_datum_are_joined_and_told(las):
     real = heights("NZVD2016 height", "New Zealand Vertical Datum 2016")
     for wkt in (real, heights("Ellipsoid (meters)", "Ellipsoid").replace("2005", "2002")):
         tile(las, "b.las", 100, wkt=wkt)
-        heard = las.Heard()
+        heard = Heard()
         survey = open_survey([las.folder], progress=heard)
         assert len(survey.tiles) == 2 and survey.crs.datum is not None
         (told,) = [text for text in (*heard.infos, *heard.warnings) if "datum" in text]
@@ -221,7 +222,7 @@ def test_files_with_a_placeholder_for_their_datum_are_joined_and_told(las):
 
 
 def test_a_missing_crs_is_taken_from_the_others_if_these_are_metres(las):
-    heard = las.Heard()
+    heard = Heard()
     tile(las, "a.las")
     for number in range(5):
         tile(las, f"b{number}.las", 100 * number + 100, wkt="")
@@ -238,7 +239,7 @@ def test_what_is_odd_about_all_files_is_told_once(las):
     wkt = metres().join(('COMPD_CS["both",', ',VERT_CS["heights",VERT_DATUM["d",2005]]]'))
     for number in range(4):
         tile(las, f"{number}.las", 100 * number, wkt=wkt)
-    heard = las.Heard()
+    heard = Heard()
     open_survey([las.folder], progress=heard)
     assert len(heard.warnings) == 1
     assert heard.warnings[0].endswith("(in 4 files)")
@@ -248,7 +249,7 @@ def test_what_is_odd_about_all_files_is_told_once(las):
 def test_the_same_tile_twice_is_told(las):
     tile(las, "a.las")
     tile(las, "b.laz")
-    heard = las.Heard()
+    heard = Heard()
     open_survey([las.folder], progress=heard)
     assert any("a.las and b.laz have the same extent" in text for text in heard.warnings)
 
@@ -260,7 +261,7 @@ def test_a_copy_beside_a_file_of_a_folder_is_left_out_and_it_is_told(las):
     tile(las, "c.copc.laz", count=59)
     tile(las, "d.laz")
     tile(las, "d.copc.laz", side=99.0)
-    heard = las.Heard()
+    heard = Heard()
     survey = open_survey(Inputs([las.folder]).read_as(None, recursive=True), heard)
     assert names(part.path for part in survey.tiles) == [
         "a.laz", "b.las", "a.copc.laz", "c.copc.laz", "c.laz", "d.copc.laz", "d.laz",
@@ -273,7 +274,7 @@ def test_a_copy_beside_a_file_of_a_folder_is_left_out_and_it_is_told(las):
 
 def test_copies_that_are_named_are_all_used(las):
     copc = tile(las, "a.copc.laz")
-    heard, files = las.Heard(), [tile(las, "a.laz"), copc]
+    heard, files = Heard(), [tile(las, "a.laz"), copc]
     survey = open_survey(files, progress=heard)
     assert names(part.path for part in survey.tiles) == ["a.copc.laz", "a.laz"]
     assert any("have the same extent" in text for text in heard.warnings) and not heard.infos
@@ -307,10 +308,10 @@ def test_files_outside_of_the_folder_of_their_list_are_told(las):
     inside, outside = tile(las, "sub/a.las"), tile(las, "b.las", 100.0)
     vpc = las.folder / "sub" / "all.vpc"
     write_vpc(vpc, [inside, outside])
-    heard = las.Heard()
+    heard = Heard()
     assert len(open_survey([vpc], progress=heard).tiles) == 2
     assert [text for text in heard.warnings if f"The first is {outside.resolve()}." in text]
     write_vpc(las.folder / "all.vpc", [inside, outside])
-    heard = las.Heard()
+    heard = Heard()
     open_survey([las.folder / "all.vpc"], progress=heard)
     assert not any("outside" in text for text in heard.warnings)

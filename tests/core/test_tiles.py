@@ -12,7 +12,7 @@ import laspy
 import numpy as np
 import pytest
 from realdata import real
-from runs import classify_tiles, environment, temporary_in
+from runs import Heard, classify_tiles, environment, temporary_in
 from surveys import (
     CountingJob,
     DeadlyJob,
@@ -139,8 +139,8 @@ def test_a_tile_changes_in_nothing_but_its_classes(six, out):
         assert set(np.unique(after.classification)) == {1, 2}
 
 
-def test_processes_give_the_same_bytes_as_threads(many, out, las):
-    progress = las.Heard()
+def test_processes_give_the_same_bytes_as_threads(many, out):
+    progress = Heard()
     workers = Processes(Resources(threads=2))
     summary = classify_tiles([many[0]], out, FAST, progress=progress, workers=workers)
     assert summary.done_count == 16 and progress.fractions == sorted(progress.fractions)
@@ -148,13 +148,13 @@ def test_processes_give_the_same_bytes_as_threads(many, out, las):
     assert sum(": " in text and "points are ground" in text for text in progress.infos) == 16
 
 
-def test_messages_that_differ_in_names_and_numbers_only_are_told_once(tmp_path, out, las):
+def test_messages_that_differ_in_names_and_numbers_only_are_told_once(tmp_path, out):
     folder = cut(tmp_path / "in", strip(3000), 4)
     for path in folder.iterdir():
         cloud = laspy.read(path)
         cloud.return_number[: 3 + int(path.stem)] = 0
         cloud.write(str(path))
-    progress = las.Heard()
+    progress = Heard()
     classify(folder, out, progress=progress, threads=1)
     (told,) = (text for text in progress.warnings if "return number" in text)
     assert told == (
@@ -264,11 +264,11 @@ def changed_times(folder):
     return {path.name: path.stat().st_mtime_ns for path in finished(folder)}
 
 
-def test_tiles_that_are_done_are_kept_when_a_run_goes_on(six, out, las):
+def test_tiles_that_are_done_are_kept_when_a_run_goes_on(six, out):
     classify(six, out, blocks=BLOCKS)
     before = changed_times(out)
     (out / "3.laz").unlink()
-    progress = las.Heard()
+    progress = Heard()
     summary = classify(six, out, resume=True, blocks=BLOCKS, progress=progress)
     after = changed_times(out)
     assert {name for name in after if after[name] != before[name]} == {"3.laz"}
@@ -280,10 +280,10 @@ def test_tiles_that_are_done_are_kept_when_a_run_goes_on(six, out, las):
     assert all(changed_times(out)[name] != after[name] for name in after)
 
 
-def test_other_parameters_or_inputs_make_tiles_anew_where_they_matter(six, out, las):
+def test_other_parameters_or_inputs_make_tiles_anew_where_they_matter(six, out):
     classify(six, out, blocks=Blocks(40.0, 5.0))
     survey = dict(resume=True, blocks=Blocks(40.0, 5.0))
-    other, progress = {"height_threshold": 0.4}, las.Heard()
+    other, progress = {"height_threshold": 0.4}, Heard()
     assert classify(six, out, **other, progress=progress, **survey).kept_count == 0
     assert any("6 finished files are made again" in text for text in progress.infos)
     assert classify(six, out, **other, **survey).kept_count == 6
@@ -418,11 +418,11 @@ def test_a_killed_run_goes_on_and_gives_the_same_bytes(number, many, out):
 # What goes wrong
 
 
-def test_broken_tiles_are_told_at_the_end_and_the_others_done(six, out, las, capsys):
+def test_broken_tiles_are_told_at_the_end_and_the_others_done(six, out, capsys):
     data = (six / "1.laz").read_bytes()
     (six / "1.laz").write_bytes(data[:900] + bytes(300) + data[1200:])
     (six / "9.laz").write_bytes(b"no cloud")
-    progress = las.Heard()
+    progress = Heard()
     summary = classify(six, out, blocks=BLOCKS, progress=progress)
     assert [Path(path).name for path in summary.failures] == ["1.laz", "9.laz"]
     assert summary.done_count == 5 and summary.tile_count == 7
@@ -440,10 +440,10 @@ def test_broken_tiles_are_told_at_the_end_and_the_others_done(six, out, las, cap
     assert summary.done_count == 6 and not summary.failures
 
 
-def test_a_tile_without_points_that_can_be_ground_is_written_unchanged(six, out, las):
+def test_a_tile_without_points_that_can_be_ground_is_written_unchanged(six, out):
     high = np.array([[900_000 + 7 * n, 900_000 + 5 * n, 900] for n in range(30)])
     write(six / "water.laz", high, classes=9)
-    progress = las.Heard()
+    progress = Heard()
     summary = classify(six, out, progress=progress)
     assert summary.done_count == 7 and not summary.failures
     assert (out / "water.laz").read_bytes() == (six / "water.laz").read_bytes()

@@ -8,7 +8,7 @@ import pytest
 import surveys
 from matrices import quick
 from realdata import real
-from runs import memory_store
+from runs import Heard, memory_store
 
 import bare_earth
 from bare_earth import BareEarthError, Cancelled, Progress
@@ -233,7 +233,7 @@ def watched(monkeypatch, function, reach=20.0):
     monkeypatch.setattr(ground_module, "method_of", lambda parameters: method)
 
 
-def test_blocks_without_ground_are_told_and_messages_told_once(monkeypatch, las):
+def test_blocks_without_ground_are_told_and_messages_told_once(monkeypatch):
     def function(points, progress):
         progress.info("All the same.")
         if points.x.max() < 110:  # the easternmost blocks have nothing beyond
@@ -243,7 +243,7 @@ def test_blocks_without_ground_are_told_and_messages_told_once(monkeypatch, las)
         return np.ones(points.count, bool)
 
     watched(monkeypatch, function)
-    told, blocks = las.Heard(), Blocks(100.0, 20.0)
+    told, blocks = Heard(), Blocks(100.0, 20.0)
     # Windows of these blocks are narrower than the usual building.
     small = SlopeFilter(preset="whitebox", search_radius=5.0)
     (labels,) = labels_of([cloud_of(*survey())], small, blocks, 3, None, progress=told)

@@ -5,7 +5,7 @@ import json
 import numpy as np
 import pytest
 import rasterio
-from conftest import Heard
+from runs import Heard
 from surveys import ORIGIN, write_points
 
 import bare_earth

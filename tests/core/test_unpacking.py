@@ -11,6 +11,7 @@ import laspy
 import lazrs
 import numpy as np
 import pytest
+from runs import Heard
 from surveys import bytes_of, cut, strip, write
 
 import bare_earth
@@ -21,6 +22,8 @@ from bare_earth.algorithms.las.opening import open_las
 from bare_earth.algorithms.las.reading import read_cloud
 from bare_earth.algorithms.las.records import needed, read_records
 from bare_earth.algorithms.survey.window import read_window
+
+pytestmark = pytest.mark.processes
 
 FAST = {"method": "slope", "preset": "whitebox"}
 COUNT = 400
@@ -129,9 +132,9 @@ def test_a_survey_is_decompressed_once(tmp_path, monkeypatch, decompressed, heig
     assert bytes_of(tmp_path / "once") == bytes_of(tmp_path / "often")
 
 
-def test_one_file_that_does_not_fit_is_decompressed_once(tmp_path, decompressed, las):
+def test_one_file_that_does_not_fit_is_decompressed_once(tmp_path, decompressed):
     source = write(tmp_path / "one.laz", strip(60_000, 400.0, 200.0))
-    much, little, progress = tmp_path / "much.laz", tmp_path / "little.laz", las.Heard()
+    much, little, progress = tmp_path / "much.laz", tmp_path / "little.laz", Heard()
     run = {"height_above_ground": True, **FAST}
     bare_earth.classify(source, much, **run)
     decompressed.clear()

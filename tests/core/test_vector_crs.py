@@ -6,9 +6,8 @@ import struct
 import laspy
 import numpy as np
 import pytest
-from conftest import Heard
 from realdata import real
-from runs import FAST
+from runs import FAST, Heard
 
 import bare_earth
 from bare_earth import BareEarthError

@@ -5,6 +5,7 @@ from urllib.request import pathname2url
 
 import numpy as np
 import pytest
+from runs import Heard
 
 from bare_earth import BareEarthError
 from bare_earth.algorithms.crs import provider
@@ -31,7 +32,7 @@ def tile(las, name="a.laz", code=UTM, extent=(400_000, 5_000_000, 401_000, 5_001
 
 def written(las, *files, name="all.vpc"):
     target = las.folder / name
-    heard = las.Heard()
+    heard = Heard()
     write_vpc(target, files, heard)
     return json.loads(target.read_text(encoding="utf-8")), heard
 
@@ -66,7 +67,7 @@ def test_the_place_on_the_globe_is_that_of_the_crs(las):
     assert item["bbox"][2::3] == [10, 90]
 
 
-def test_libraries_agree_on_places(las, monkeypatch):
+def test_libraries_agree_on_places(monkeypatch):
     wkt = wkt_of_epsg(2927)
     places = np.array([(1_100_000.0, 600_000.0), (1_200_000.0, 7e5)])
     by_package = {"osgeo": provider._Gdal, "pyproj": provider._Pyproj}

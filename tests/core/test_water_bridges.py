@@ -4,8 +4,8 @@ import json
 
 import numpy as np
 import pytest
-from test_checkpoints import write
-from test_water import LEVEL, Scene, contains, lake, overlap, river, run
+from checkpoints import write
+from water_scenes import LEVEL, Scene, contains, lake, overlap, river, run
 
 import bare_earth
 

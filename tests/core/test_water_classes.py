@@ -5,12 +5,11 @@ import json
 import laspy
 import numpy as np
 import pytest
-from conftest import Heard
 from realdata import real
-from runs import CancelAt, said
+from runs import CancelAt, Heard, said
 from scipy.spatial import cKDTree
 from surveys import classes_of, write_points
-from test_water import lake, lake_scene
+from water_scenes import lake, lake_scene
 
 import bare_earth
 from bare_earth import BareEarthError, Cancelled

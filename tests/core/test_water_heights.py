@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 import rasterio
+from checkpoints import write
 from independent_water import compare, corners_in_flat_water, features, share_at_level
 from matrices import covering
 from rasterio.features import geometry_mask
-from test_checkpoints import write
-from test_water import LEVEL, Scene, lake, river, run
+from water_scenes import LEVEL, Scene, lake, river, run
 
 import bare_earth
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from realdata import real
-from test_water import Scene, written_water
+from water_scenes import Scene, written_water
 
 from bare_earth.algorithms.tools.water.descent import Network, descent
 from bare_earth.algorithms.tools.water.reaches import reaches_of

@@ -2,9 +2,9 @@ import struct
 
 import numpy as np
 import pytest
-from conftest import LasKit
+from las_files import LasKit
 from matrices import quick
-from runs import CancelAt
+from runs import CancelAt, Heard
 from surveys import write_classified
 
 from bare_earth import BareEarthError, Cancelled
@@ -66,7 +66,7 @@ def test_a_rectangle_that_is_none_is_refused(las):
 
 
 def test_a_wrong_header_is_told_and_hides_points_only_where_it_is_trusted(las):
-    source, heard = with_extent(las.make(count=400), 1, 2, 3, 4), las.Heard()
+    source, heard = with_extent(las.make(count=400), 1, 2, 3, 4), Heard()
     assert read_window(source, BOX, heard).count == 70
     assert any("states a smaller extent than its points have" in text for text in heard.warnings)
     assert read_window(source, BOX, trust_header=True).count == 0
@@ -82,7 +82,7 @@ def with_extent(path, west, south, east, north):
 
 def test_a_right_header_is_not_complained_of(las):
     source = with_extent(las.make(count=400), 399_990, 5e6, 400_009, 5_000_019)
-    heard = las.Heard()
+    heard = Heard()
     assert read_window(source, BOX, heard, trust_header=True).count == 70
     assert not any("extent" in text for text in heard.warnings)
 
@@ -135,9 +135,9 @@ def boxes_in_octree():
     yield (399_000.0, 4_999_000.0, 401_000.0, 5_001_000.0)
 
 
-def test_a_window_of_copc_holds_what_masking_the_whole_gives(las, octree, monkeypatch):
+def test_a_window_of_copc_holds_what_masking_the_whole_gives(octree, monkeypatch):
     monkeypatch.setattr(copc_nodes, "_BATCH", 3000)
-    cloud, heard = read_cloud(octree), las.Heard()
+    cloud, heard = read_cloud(octree), Heard()
     counts = [
         assert_is_part(read_window(octree, box, heard), cloud, box) for box in boxes_in_octree()
     ]
@@ -189,7 +189,7 @@ def test_a_window_of_copc_by_another_writer(las):
         parent = copclib.VoxelKey(key) if key[0] else copclib.VoxelKey(0, 0, 0, 0)
         writer.AddNode(copclib.VoxelKey(key), points, parent)
     writer.Close()
-    cloud, heard = read_cloud(path), las.Heard()
+    cloud, heard = read_cloud(path), Heard()
     for box in boxes_in_octree():
         assert_is_part(read_window(path, box, heard), cloud, box)
     assert not any("octree" in text for text in heard.warnings)
@@ -224,7 +224,7 @@ def test_other_classes_leave_the_octree_as_it_is(las, octree, nested, monkeypatc
     before, after = las.split(octree), las.split(target)
     before.records[:, 16] = classes
     np.testing.assert_array_equal(after.records, before.records)
-    cloud, heard = read_cloud(target), las.Heard()
+    cloud, heard = read_cloud(target), Heard()
     for box in boxes_in_octree():
         assert_is_part(read_window(target, box, heard), cloud, box)
     assert not any("octree" in text for text in heard.warnings)
@@ -319,8 +319,8 @@ DAMAGES = [lose_a_node, swap_two_nodes, name_itself, leave_the_file, go_astray, 
 
 
 @pytest.mark.parametrize("damage", DAMAGES)
-def test_a_damaged_octree_is_told_and_loses_no_point(las, octree, damage):
-    cloud, heard = read_cloud(octree), las.Heard()
+def test_a_damaged_octree_is_told_and_loses_no_point(octree, damage):
+    cloud, heard = read_cloud(octree), Heard()
     change_entries(octree, damage)
     box = (400_000.0, 5_000_000.0, 400_600.0, 5_000_600.0)
     assert_is_part(read_window(octree, box, heard), cloud, box)
@@ -328,14 +328,14 @@ def test_a_damaged_octree_is_told_and_loses_no_point(las, octree, damage):
 
 
 @pytest.mark.parametrize("field", [3, 0, 5])
-def test_a_wrong_cube_is_told_and_loses_no_point(las, octree, field):
+def test_a_wrong_cube_is_told_and_loses_no_point(octree, field):
     data = bytearray(octree.read_bytes())
     place = 375 + VLR_HEADER + 8 * field
     if field == 5:
         struct.pack_into("<Q", data, place, 1 << 63)
     else:
         struct.pack_into("<d", data, place, 7.0)
-    cloud, heard = read_cloud(octree), las.Heard()
+    cloud, heard = read_cloud(octree), Heard()
     octree.write_bytes(data)
     box = (400_000.0, 5_000_000.0, 400_300.0, 5_000_300.0)
     assert_is_part(read_window(octree, box, heard), cloud, box)

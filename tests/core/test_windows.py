@@ -15,6 +15,8 @@ from bare_earth.algorithms.engine import memory
 from bare_earth.algorithms.engine.memory import Resources, free_memory
 from bare_earth.algorithms.engine.workers import Processes
 
+pytestmark = pytest.mark.processes
+
 # Before numpy 2, integers have 32 bits on Windows where nothing else is said.
 _NARROW = re.compile(r"np\.arange\([^=]*\) \* len\(.*\)|np\.cumsum\(\[[^=]*\]\)")
 # What these are about, so that not each part of each expression is written out.

@@ -4,10 +4,10 @@ import struct
 import laspy
 import numpy as np
 import pytest
-from conftest import EVERY
+from las_files import EVERY
 from matrices import covering
 from realdata import real
-from runs import CancelAt
+from runs import CancelAt, Heard
 from surveys import write_classified
 
 from bare_earth import BareEarthError, Cancelled
@@ -80,7 +80,7 @@ def test_only_the_class_changes(las, layout, read, written):
 
 @pytest.mark.parametrize("written", ["las", "laz"])
 def test_nothing_is_told_where_nothing_is_left_out(las, written):
-    heard = las.Heard()
+    heard = Heard()
     write_classified(las.make("in.las"), las.folder / f"out.{written}", new_classes(60), heard)
     assert (heard.infos, heard.warnings) == ([], [])
 
@@ -174,7 +174,7 @@ def test_a_stale_waveform_pointer_is_copied_and_cuts_nothing_off(las, stale, wri
 
 
 def test_waveforms_in_a_file_beside_are_told(las):
-    heard = las.Heard()
+    heard = Heard()
     source = las.make(version=3, point_format=4, encoding=0x04)
     write_classified(source, las.folder / "out.las", new_classes(60), heard)
     assert any("in.wdp" in text and "out.wdp" in text for text in heard.warnings)

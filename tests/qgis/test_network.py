@@ -4,7 +4,7 @@ import pytest
 import test_remote
 from qgis.core import QgsApplication, QgsAuthMethodConfig
 from remote_server import serving
-from test_remote import DATA, fetched, no_pauses, wanted  # noqa: F401
+from test_remote import DATA, fetched, wanted
 
 from bare_earth.algorithms.remote import transfers
 from bare_earth.plugin import network

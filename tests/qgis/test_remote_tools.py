@@ -6,6 +6,7 @@ from pathlib import Path
 import laspy
 import numpy as np
 import pytest
+from ept_sets import MERCATOR, add_ept
 from osgeo import gdal
 from qgis.core import (
     QgsCoordinateReferenceSystem,
@@ -27,7 +28,6 @@ from qgis.core import (
 )
 from remote_server import serving
 from support import ALGORITHM, Log, write_scene
-from test_remote_ept import MERCATOR, add_ept
 
 from bare_earth.algorithms.las import copc_octree
 from bare_earth.plugin.plugin import BareEarthPlugin
