@@ -25,7 +25,7 @@ from bare_earth.algorithms.las.edits import Edits
 from bare_earth.algorithms.las.opening import open_las
 from bare_earth.algorithms.las.writing import write_changed
 
-_TESTS = Path(__file__).parents[1] / "tests" / "core"
+_TESTS = Path(__file__).parents[1] / "tests" / "helpers"
 _STRIPS, _SIDE, _WINDOW, _LATENCY, _RUNS = 20, 2000.0, 250.0, 0.01, 3
 # Serves a file until its input ends; for each line, it tells the requests and bytes since the last.
 _SERVER = """

@@ -1,4 +1,4 @@
-"""What all tests without QGIS share: which of them run, and in which order, and their fixtures."""
+"""What all tests share: the order in which they run, and fixtures."""
 
 import errno
 import gc
@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 from las_files import LasKit
+from left_out import pytest_runtest_setup  # noqa: F401
 from remote_server import serving
 
 from bare_earth.algorithms.core import temporary as temporary_module
@@ -21,38 +22,26 @@ os.environ["LANGUAGE"] = "C"
 # tools/environment does it.
 if sys.dont_write_bytecode:
     os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
-    os.environ["PYTHONPYCACHEPREFIX"] = str(Path(__file__).parents[2] / "build" / "bytecode")
+    os.environ["PYTHONPYCACHEPREFIX"] = str(Path(__file__).parents[1] / "build" / "bytecode")
     sys.pycache_prefix, sys.dont_write_bytecode = os.environ["PYTHONPYCACHEPREFIX"], False
 
 # Requests that failed are made again at once.
 transfers._FIRST_PAUSE = 0.001
 
 # These begin first; and these share the code that they parse.
-SLOWEST = ("test_goldens.py", "test_deliveries.py", "test_tiles.py", "test_tutorials.py")
-# What these find out does not depend on the Python that runs them, nor do the scenes of benchmarks.
-SAME_IN_ANY_PYTHON = {
-    "test_coming_from.py", "test_demo.py", "test_docstrings.py", "test_goldens.py",
-    "test_notebooks.py", "test_packaging.py", "test_pages.py", "test_presets.py",
-    "test_translations.py", "test_tutorials.py",
-}  # fmt: skip
-READ_THE_CODE = ("test_docstrings.py", "test_security.py", "test_walls.py", "test_windows.py")
-
-
-@pytest.hookimpl(tryfirst=True)
-def pytest_runtest_setup(item):
-    """Leave long tests out, and tell of it, unless `-m` asks for them; in Python 3.9 also those
-    that newer ones run.
-    """
-    if sys.version_info < (3, 10):
-        if item.path.name in SAME_IN_ANY_PYTHON or item.path.parent != Path(__file__).parent:
-            pytest.skip("not in Python 3.9: it is the same in any Python")
-    if item.get_closest_marker("long") and "long" not in item.config.option.markexpr:
-        pytest.skip("long: `make test-long` runs it")
+SLOWEST = (
+    "project/test_goldens.py", "delivery/test_deliveries.py", "engine/test_tiles.py",
+    "project/test_tutorials.py",
+)  # fmt: skip
+READ_THE_CODE = (
+    "project/test_docstrings.py", "cli/test_security.py", "project/test_walls.py",
+    "engine/test_windows.py",
+)  # fmt: skip
 
 
 def pytest_collection_modifyitems(items):
     """Begin with the files that take longest, so that no process waits for another one at last."""
-    items.sort(key=lambda item: item.path.name not in SLOWEST)
+    items.sort(key=lambda item: not item.path.as_posix().endswith(SLOWEST))
 
 
 @pytest.hookimpl(optionalhook=True)

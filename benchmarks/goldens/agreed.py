@@ -9,7 +9,7 @@ from typing import Iterator
 from .digests import Digests
 
 ROOT = Path(__file__).parents[2]
-AGREED, AGREED_IN_QGIS = ROOT / "tests/core/goldens.json", ROOT / "tests/qgis/goldens.json"
+AGREED, AGREED_IN_QGIS = ROOT / "tests/project/goldens.json", ROOT / "tests/qgis/goldens.json"
 
 
 def read(path: Path) -> Digests:

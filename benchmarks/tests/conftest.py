@@ -1,3 +1,3 @@
-"""The tests of the benchmarks leave long ones out, as those in tests/core do."""
+"""The tests of the benchmarks leave long ones out, as those in tests/ do."""
 
-from conftest import pytest_runtest_setup  # noqa: F401
+from left_out import pytest_runtest_setup  # noqa: F401

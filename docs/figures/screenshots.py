@@ -195,7 +195,7 @@ def show_remote(tile: Path, folder: Path) -> None:
     from processing.gui.AlgorithmDialog import AlgorithmDialog
     from qgis import utils
 
-    sys.path.append(str(Path(__file__).parents[2] / "tests" / "core"))
+    sys.path.append(str(Path(__file__).parents[2] / "tests" / "helpers"))
     from remote_server import serving
 
     processing.run(ALGORITHM, {"INPUT": str(tile), "OUTPUT": str(folder / "tile.copc.laz")})

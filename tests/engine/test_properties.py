@@ -1,6 +1,6 @@
 """What holds of any survey: found by generated ones, of which failing examples are made small.
 
-`BARE_EARTH_EXAMPLES=200 python -m pytest tests/core/test_properties.py` looks at more of them.
+`BARE_EARTH_EXAMPLES=200 python -m pytest tests/engine/test_properties.py` looks at more of them.
 """
 
 import os

@@ -2,6 +2,8 @@
 
 import numpy as np
 import pytest
+from runs import said
+from surveys import bytes_of, strip, write
 
 from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.engine.run import Run
@@ -10,9 +12,6 @@ from bare_earth.algorithms.tin.lattice_sample import LatticeSample
 from bare_earth.algorithms.tools.heights import MeasureHeights
 from bare_earth.algorithms.tools.rasters.rows import RasterFiles
 from bare_earth.algorithms.tools.rasters.step import MakeRasters
-
-from .runs import said
-from .surveys import bytes_of, strip, write
 
 # Metres from a corner of blocks to the points, and the number of blocks in which they lie then.
 PLACES = {"one block": (0, 1), "two blocks": (1850, 2)}

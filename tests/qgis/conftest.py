@@ -16,8 +16,8 @@ from qgis.core import QgsApplication, QgsMapLayer, QgsProcessingContext, QgsProj
 from qgis.PyQt import sip
 from qgis.PyQt.QtCore import QCoreApplication
 
-# For support.py, which the tests import too.
-sys.path.append(str(Path(__file__).parent))
+# For support.py, which the tests import too, and for test_remote.py, whose tests run here again.
+sys.path += [str(Path(__file__).parent), str(Path(__file__).parents[1] / "remote")]
 
 from support import ALGORITHM, ROOT, Log, Scene, remove
 
@@ -36,6 +36,7 @@ def qgis_app(tmp_path_factory):
     # Layers close their files by GDAL, which ends below; a context, which the last test may still
     # hold, has layers.
     gc.collect()
+    gc.unfreeze()
     for found in gc.get_objects():
         has_layers = issubclass(type(found), (QgsMapLayer, QgsProcessingContext))
         if has_layers and not sip.isdeleted(found) and sip.ispyowned(found):

@@ -6,6 +6,7 @@ import pytest
 import surveys
 from runs import said
 
+pytestmark = pytest.mark.processes
 SLOPE = ("--method", "slope", "--threads", "1", "--crs", "EPSG:25832")
 LONGEST = 230
 

@@ -1,0 +1,20 @@
+"""Which tests are left out unless they are asked for."""
+
+import sys
+
+import pytest
+
+# What tests of the project itself and of the benchmarks find out does not depend on the Python.
+_SAME_IN_ANY_PYTHON = ("tests/project", "benchmarks/tests")
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_runtest_setup(item):
+    """Leave long tests out, and tell of it, unless `-m` asks for them; in Python 3.9 also those
+    that newer ones run.
+    """
+    folder = item.path.parent.as_posix()
+    if sys.version_info < (3, 10) and folder.endswith(_SAME_IN_ANY_PYTHON):
+        pytest.skip("not in Python 3.9: it is the same in any Python")
+    if item.get_closest_marker("long") and "long" not in item.config.option.markexpr:
+        pytest.skip("long: `make test-long` runs it")
