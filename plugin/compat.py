@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from qgis import core
 from qgis.core import (
     NULL,
@@ -80,12 +78,12 @@ def show_overview(renderer: core.QgsPointCloudRenderer) -> None:
         renderer.setZoomOutBehavior(Qgis.PointCloudZoomOutRenderBehavior.RenderOverview)
 
 
-def is_null(value: Any) -> bool:
+def is_null(value: object) -> bool:
     """Return whether a Processing value is not set; the null of PyQt depends on the Qt version."""
     return value is None or value == NULL
 
 
-def is_empty(value: Any) -> bool:
+def is_empty(value: object) -> bool:
     """Return whether a field is empty."""
     return is_null(value) or value == ""
 
@@ -135,7 +133,7 @@ def point_cloud_output(
 
 def point_cloud_output_path(
     algorithm: QgsProcessingAlgorithm,
-    parameters: dict[str, Any],
+    parameters: dict[str, object],
     name: str,
     context: QgsProcessingContext,
 ) -> str:

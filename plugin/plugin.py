@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from qgis.core import Qgis, QgsApplication, QgsMessageLog, QgsSettings
 from qgis.PyQt.QtCore import QCoreApplication, QTimer, QUrl
@@ -21,6 +21,8 @@ from .libraries.folders import BUNDLED, add_to_path, remove_if_uninstalled
 from .libraries.laz_support import LazSupport
 
 if TYPE_CHECKING:
+    from qgis.gui import QgisInterface, QgsMessageBarItem
+
     from .laz_dialog import LazDialog
     from .provider import BareEarthProvider
 
@@ -34,12 +36,12 @@ _SOON = 3000
 class BareEarthPlugin:
     """Adds and removes the Processing provider and the menu."""
 
-    def __init__(self, iface: Any) -> None:
-        # None in qgis_process.
+    def __init__(self, iface: QgisInterface) -> None:
+        # None in qgis_process, which only registers the algorithms.
         self._iface = iface
         self._provider: BareEarthProvider | None = None
         self._actions: list[QAction] = []
-        self._message: Any = None
+        self._message: QgsMessageBarItem | None = None
         self._dialog: LazDialog | None = None
         # First, because the algorithms are listed in the user's language.
         self._translator = install()

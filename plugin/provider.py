@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any, Iterable
+from typing import Iterable
 
 from qgis.core import QgsProcessingProvider
 from qgis.PyQt.QtGui import QIcon
@@ -16,7 +16,7 @@ from .processing.compositions import CompositionAlgorithm
 from .processing.maps import map_algorithms
 from .processing.models import shipped_models
 from .processing.outputs import point_cloud_formats
-from .processing.tools import tool_algorithms
+from .processing.tools import ToolAlgorithm, tool_algorithms
 
 ICON = Path(__file__).parent / "icons" / "bare_earth.svg"
 
@@ -26,14 +26,14 @@ class Fields(Keywords):
 
     reproject = "with 'Reproject' of the group Point cloud data management"
 
-    def __init__(self, algorithms: Iterable[Any]) -> None:
+    def __init__(self, algorithms: Iterable[ToolAlgorithm]) -> None:
         # By the command and the option; without a command, the first tool that has the option.
         self._labels: dict[tuple[str, str], str] = {}
         self._titles = {"clear-cache": tr("Remove downloaded point clouds")}  # in the menu
         for algorithm in algorithms:
             self._titles.setdefault(algorithm.command, algorithm.displayName())
 
-    def add_labels(self, algorithms: Iterable[Any]) -> None:
+    def add_labels(self, algorithms: Iterable[ToolAlgorithm]) -> None:
         """Add the labels of algorithms, which have fields only when they are registered."""
         for algorithm in algorithms:
             for field in algorithm.parameterDefinitions():
@@ -45,7 +45,7 @@ class Fields(Keywords):
         """Return the title of a tool."""
         return f"'{self._titles.get(command, command)}'"
 
-    def option(self, name: str, value: Any, command: str) -> str:
+    def option(self, name: str, value: object, command: str) -> str:
         """Return the label of a field, with its value unless it is a box to tick."""
         text = f"'{self._labels.get((command, name), name)}'"
         text += f" ({value})" if value not in (None, True) else ""

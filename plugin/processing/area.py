@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Mapping, Sequence
+from typing import Mapping, Sequence
 
 from qgis.core import (
     QgsProcessingAlgorithm,
@@ -40,7 +40,7 @@ def add_area(algorithm: QgsProcessingAlgorithm, declared: Input) -> None:
 
 def area_of(
     algorithm: QgsProcessingAlgorithm,
-    parameters: dict[str, Any],
+    parameters: dict[str, object],
     context: QgsProcessingContext,
     crs: CloudCrs,
 ) -> Area | None:
@@ -61,7 +61,7 @@ def area_of(
 
 def _polygons_of(
     algorithm: QgsProcessingAlgorithm,
-    parameters: dict[str, Any],
+    parameters: dict[str, object],
     context: QgsProcessingContext,
     crs: CloudCrs,
 ) -> tuple[Polygon, ...]:
@@ -70,13 +70,13 @@ def _polygons_of(
     return tuple(rings for rings, _ in found)
 
 
-def has_area(parameters: Mapping[str, Any]) -> bool:
+def has_area(parameters: Mapping[str, object]) -> bool:
     """Return whether a field of `add_area` is filled."""
     return not all(compat.is_empty(parameters.get(name)) for name in _FIELDS)
 
 
 def area_in_own_crs(
-    algorithm: QgsProcessingAlgorithm, parameters: dict[str, Any], context: QgsProcessingContext
+    algorithm: QgsProcessingAlgorithm, parameters: dict[str, object], context: QgsProcessingContext
 ) -> Area | None:
     """Return the area in the fields of `add_area` with its own CRS, for points of unknown CRS."""
     given = [name for name in _FIELDS if not compat.is_empty(parameters.get(name))]
@@ -99,14 +99,14 @@ def area_in_own_crs(
     return Area(None, Shapes(polygons, text_of(crs), "The area"))
 
 
-def check_area_only(parameters: dict[str, Any], chosen: Sequence[ParameterSet]) -> None:
+def check_area_only(parameters: dict[str, object], chosen: Sequence[ParameterSet]) -> None:
     """Refuse to write only the points in the area if there is no area."""
     for values in chosen:
         if isinstance(values, Output):
             values.check_area(has_area(parameters))
 
 
-def area_options(area: Area | None, progress: Progress) -> dict[str, Any]:
+def area_options(area: Area | None, progress: Progress) -> dict[str, tuple[str, ...]]:
     """Return the options of the command line for an area; tell the user how to add a boundary."""
     if area is not None and area.polygons:
         progress.info(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextlib
 from html import escape
 from pathlib import Path
-from typing import Any, Iterable, Iterator, Mapping
+from typing import Iterable, Iterator, Mapping, Union
 
 from qgis.core import (
     QgsProcessingAlgorithm,
@@ -40,6 +40,8 @@ from .presets import presets_of
 from .stated_crs import crs_of_text, stated_crs_of
 
 _ICONS = Path(__file__).parents[1] / "icons"
+# Values of options of the command line, by their names without dashes; empty values are left out.
+Options = Mapping[str, Union[str, tuple[str, ...], None]]
 
 
 class BareEarthAlgorithm(QgsProcessingAlgorithm):
@@ -74,7 +76,7 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
 
     def bring(
         self,
-        parameters: dict[str, Any],
+        parameters: dict[str, object],
         context: QgsProcessingContext,
         progress: FeedbackProgress,
     ) -> None:
@@ -82,26 +84,26 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
 
     def compute(
         self,
-        parameters: dict[str, Any],
+        parameters: dict[str, object],
         context: QgsProcessingContext,
         progress: FeedbackProgress,
-    ) -> dict[str, Any]:
+    ) -> dict[str, object]:
         """Do the work, in any thread, and return the outputs."""
         raise NotImplementedError
 
-    def find_inputs(self, parameters: dict[str, Any], context: QgsProcessingContext) -> None:
+    def find_inputs(self, parameters: dict[str, object], context: QgsProcessingContext) -> None:
         """Find the input files, which must exist, and set `inputs` and `subject`."""
 
     def prepare(
         self,
-        parameters: dict[str, Any],
+        parameters: dict[str, object],
         context: QgsProcessingContext,
         progress: FeedbackProgress,
     ) -> None:
         """Read data from the project that `compute` needs; runs in the main thread."""
         self.find_inputs(parameters, context)
 
-    def check(self, parameters: dict[str, Any], context: QgsProcessingContext) -> None:
+    def check(self, parameters: dict[str, object], context: QgsProcessingContext) -> None:
         """Check the values before a run; raise BareEarthError to refuse them."""
         check_area_only(parameters, self.chosen(parameters, context))
         stated_crs_of(self, parameters, context)
@@ -113,7 +115,7 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
                 label = self._page_labels.setdefault(output.name(), output.description())
                 output.setDescription(f"{self.subject}: {label}")
 
-    def makes_page(self, parameters: dict[str, Any], context: QgsProcessingContext) -> bool:
+    def makes_page(self, parameters: dict[str, object], context: QgsProcessingContext) -> bool:
         """Return whether a run with these values makes a page."""
         pages = [
             output.name() for output in self.outputDefinitions() if output.type() == "outputHtml"
@@ -121,7 +123,7 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         return any(not compat.is_empty(parameters.get(name)) for name in pages)
 
     def chosen(
-        self, parameters: dict[str, Any], context: QgsProcessingContext
+        self, parameters: dict[str, object], context: QgsProcessingContext
     ) -> list[ParameterSet]:
         """Return the declared parameters with the user's values."""
         return [
@@ -150,7 +152,7 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         return not declaration.advanced if self.shown is None else declaration.name in self.shown
 
     def point_cloud_destination(
-        self, parameters: dict[str, Any], name: str, context: QgsProcessingContext
+        self, parameters: dict[str, object], name: str, context: QgsProcessingContext
     ) -> str:
         """Return the path of an output point cloud; do not load it if QGIS cannot show it."""
         path = ""
@@ -249,7 +251,7 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         return True, ""
 
     def checkParameterValues(
-        self, parameters: dict[str, Any], context: QgsProcessingContext
+        self, parameters: dict[str, object], context: QgsProcessingContext
     ) -> tuple[bool, str]:
         """Check values with the messages of the declarations first, then as QGIS does."""
         try:
@@ -262,7 +264,7 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
 
     def prepareAlgorithm(
         self,
-        parameters: dict[str, Any],
+        parameters: dict[str, object],
         context: QgsProcessingContext,
         feedback: QgsProcessingFeedback,
     ) -> bool:
@@ -283,13 +285,13 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
 
     def processAlgorithm(
         self,
-        parameters: dict[str, Any],
+        parameters: dict[str, object],
         context: QgsProcessingContext,
         feedback: QgsProcessingFeedback,
-    ) -> dict[str, Any]:
+    ) -> dict[str, object]:
         """Run `compute`; if it is cancelled or fails, QGIS loads no output."""
         before, progress = set(context.layersToLoadOnCompletion()), FeedbackProgress(feedback)
-        results: dict[str, Any] = {}
+        results: dict[str, object] = {}
         has_failed = True
         try:
             with errors_for_qgis(), addresses_named(self.brought):
@@ -307,14 +309,16 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         return results
 
     def _arrange(
-        self, results: dict[str, Any], context: QgsProcessingContext, commands: tuple[str, ...]
+        self, results: dict[str, object], context: QgsProcessingContext, commands: tuple[str, ...]
     ) -> None:
         """Set names, styles and places of the layers, and reload those of an earlier run."""
-        looks, labels, known = {}, {}, layers.raster_looks()
+        looks: dict[str, layers.Look] = {}
+        labels, known = {}, layers.raster_looks()
         for name in filter(self.parameterDefinition, results):
-            labels[results[name]] = self.parameterDefinition(name).description()
+            path = str(results[name])
+            labels[path] = self.parameterDefinition(name).description()
             if name in known:
-                looks[results[name]] = known[name]
+                looks[path] = known[name]
         looks.update(self._looks)
         if self.stated:
             crs = crs_of_text(self.stated)
@@ -355,15 +359,15 @@ def errors_for_qgis() -> Iterator[None]:
 
 
 def command_line(
-    command: str, files: list[str], chosen: list[ParameterSet], options: Mapping[str, Any]
+    command: str, files: list[str], chosen: list[ParameterSet], options: Options
 ) -> str:
     """Return the command line, of a subcommand of `bare-earth` and its files, that does the same
     without QGIS; default values and empty options are left out.
     """
     words = ["bare-earth", command, *files]
     for option, value in options.items():
-        values = value if isinstance(value, tuple) else (value,)
-        words += [f"--{option.lower()}", *values] if value else []
+        if value:
+            words += [f"--{option.lower()}", *(value if isinstance(value, tuple) else (value,))]
     for parameters in chosen:
         for declared in parameters.declarations():
             value = getattr(parameters, declared.name)
@@ -372,7 +376,7 @@ def command_line(
     return shell_line(words)
 
 
-def _option(name: str, value: Any) -> list[str]:
+def _option(name: str, value: object) -> list[str]:
     if isinstance(value, bool):
         return [f"--{name}" if value else f"--no-{name}"]
     if isinstance(value, tuple):

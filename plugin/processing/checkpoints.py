@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from qgis.core import (
@@ -41,7 +40,7 @@ class CheckpointInput(QgsProcessingParameterFeatureSource):
         return CheckpointInput(self)
 
     def checkValueIsAcceptable(
-        self, value: Any, context: QgsProcessingContext | None = None
+        self, value: object, context: QgsProcessingContext | None = None
     ) -> bool:
         """Return whether `value` is the path of a table, or QGIS accepts it."""
         return _file_of(value) is not None or super().checkValueIsAcceptable(value, context)
@@ -54,11 +53,11 @@ class CheckpointInput(QgsProcessingParameterFeatureSource):
 
 def checkpoints_of(
     algorithm: QgsProcessingAlgorithm,
-    parameters: dict[str, Any],
+    parameters: dict[str, object],
     context: QgsProcessingContext,
     crs: CloudCrs,
     progress: Progress,
-) -> tuple[Checkpoints | None, dict[str, Any]]:
+) -> tuple[Checkpoints | None, dict[str, str]]:
     """Return the checkpoints in the CRS of the points, and the options for the command line; a
     message says how to give a layer there.
     """
@@ -91,13 +90,13 @@ def checkpoints_of(
     return checkpoints_of_rows(names, records, chosen, source.sourceName()), {}
 
 
-def _file_of(value: Any) -> Path | None:
+def _file_of(value: object) -> Path | None:
     """Return the file if the value of the field is the path of a table."""
     path = Path(value) if isinstance(value, (str, Path)) else None
     return path if path and path.suffix.lower() in SUFFIXES and path.is_file() else None
 
 
-def _table_of(value: Any, context: QgsProcessingContext) -> Path | None:
+def _table_of(value: object, context: QgsProcessingContext) -> Path | None:
     """Return the file of a table, also of one that a layer without geometry shows as it is."""
     layer = value
     if isinstance(value, str) and _file_of(value) is None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Iterable
 
 from qgis.core import QgsProcessingContext, QgsProcessingParameterEnum
 
@@ -19,14 +19,14 @@ class ChoiceParameter(QgsProcessingParameterEnum):
         return ChoiceParameter(self)
 
     def checkValueIsAcceptable(
-        self, value: Any, context: QgsProcessingContext | None = None
+        self, value: object, context: QgsProcessingContext | None = None
     ) -> bool:
         """Return whether `value` is a number of the list, or QGIS accepts it."""
         value = value_of(value, self.options())
         return super().checkValueIsAcceptable(value, context)
 
 
-def value_of(given: Any, values: list[str]) -> Any:
+def value_of(given: object, values: list[str]) -> object:
     """Return the value for a number of the list; anything else unchanged."""
     text = str(given)
     if isinstance(given, bool) or text in values or not text.isdecimal():
@@ -34,7 +34,7 @@ def value_of(given: Any, values: list[str]) -> Any:
     return values[int(text)] if int(text) < len(values) else given
 
 
-def values_of(given: Any, values: list[str]) -> list[Any]:
+def values_of(given: str | Iterable[object], values: list[str]) -> list[object]:
     """Return the values of a multiple choice, given as a list or as text with commas."""
     several = given.split(",") if isinstance(given, str) else given
     return [value_of(name, values) for name in several]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any, Iterator, Sequence
+from typing import Iterator, Sequence
 
 from qgis.core import QgsProcessingContext
 
@@ -14,6 +14,7 @@ from ...algorithms.core.parameters import ParameterSet
 from ...algorithms.delivery.deliveries import DELIVERIES
 from ...algorithms.delivery.folder import DeliveryFolder
 from ...algorithms.delivery.parameters import NO_DELIVERY, DeliveryChoice, DeliveryTerrain
+from ...algorithms.delivery.summary import DeliverySummary
 from ...algorithms.delivery.tool import OF_DELIVERIES, TOOL
 from ...algorithms.engine.memory import Resources
 from ...algorithms.engine.options import TileOutput
@@ -59,7 +60,7 @@ class CompositionAlgorithm(ToolAlgorithm):
         super().__init__(tool)
         self._inputs, self._outputs = list(tool.all_inputs), list(tool.dialog_outputs())
 
-    def find_inputs(self, parameters: dict[str, Any], context: QgsProcessingContext) -> None:
+    def find_inputs(self, parameters: dict[str, object], context: QgsProcessingContext) -> None:
         """Find the input files."""
         super().find_inputs(parameters, context)
         name = self._delivery(parameters, context)
@@ -70,12 +71,12 @@ class CompositionAlgorithm(ToolAlgorithm):
         super().set_inputs(is_list)
         self.cancelled = after_cancel(self.inputs)
 
-    def _delivery(self, parameters: dict[str, Any], context: QgsProcessingContext) -> str:
+    def _delivery(self, parameters: dict[str, object], context: QgsProcessingContext) -> str:
         """Return the name of the delivery; empty for the user's own choice of outputs."""
         name = DeliveryChoice.among(self.chosen(parameters, context)).delivery
         return "" if name in (None, NO_DELIVERY) else name
 
-    def check(self, parameters: dict[str, Any], context: QgsProcessingContext) -> None:
+    def check(self, parameters: dict[str, object], context: QgsProcessingContext) -> None:
         """Check the values, and refuse a delivery without a folder, or into an unsuitable one."""
         super().check(parameters, context)
         if self._delivery(parameters, context):
@@ -85,16 +86,16 @@ class CompositionAlgorithm(ToolAlgorithm):
             if path is not None:
                 DeliveryFolder(path).check(self.inputs)
 
-    def makes_page(self, parameters: dict[str, Any], context: QgsProcessingContext) -> bool:
+    def makes_page(self, parameters: dict[str, object], context: QgsProcessingContext) -> bool:
         """Return whether a delivery is chosen, which has a page."""
         return bool(self._delivery(parameters, context))
 
     def compute(
         self,
-        parameters: dict[str, Any],
+        parameters: dict[str, object],
         context: QgsProcessingContext,
         progress: FeedbackProgress,
-    ) -> dict[str, Any]:
+    ) -> dict[str, object]:
         """Make a delivery, or the wanted outputs."""
         request = Request(self, parameters, context, progress)
         self._tell_of_ignored(request)
@@ -127,7 +128,9 @@ class CompositionAlgorithm(ToolAlgorithm):
         if names:
             progress.warning(f"Not used: {', '.join(names)}; {why}.")
 
-    def _deliver(self, name: str, request: Request, progress: FeedbackProgress) -> dict[str, Any]:
+    def _deliver(
+        self, name: str, request: Request, progress: FeedbackProgress
+    ) -> dict[str, object]:
         """Make a delivery, and let QGIS load its layers."""
         _, parameters, context, _ = request
         chosen = self.chosen(parameters, context)
@@ -171,7 +174,9 @@ class CompositionAlgorithm(ToolAlgorithm):
         below = layers.BELOW_TERRAIN
         show_classified(self, cloud, counts, ground, cells, context, progress, below)
 
-    def _show_layers(self, done: Any, first: str, context: QgsProcessingContext) -> None:
+    def _show_layers(
+        self, done: DeliverySummary, first: str, context: QgsProcessingContext
+    ) -> None:
         """Let QGIS load rasters, lines and polygons; `first` is visible at first."""
         looks = {
             "water": layers.WATER, "breaklines": layers.BREAKLINES, "places": layers.PLACES,
@@ -189,7 +194,7 @@ class CompositionAlgorithm(ToolAlgorithm):
             look = looks.get(name) or layers.raster_looks()[name.upper()]
             self.show(path, layers.first(look) if name == first else look)
 
-    def _make_own(self, request: Request, progress: FeedbackProgress) -> dict[str, Any]:
+    def _make_own(self, request: Request, progress: FeedbackProgress) -> dict[str, object]:
         """Make the outputs that the user chose, and set the looks of their layers."""
         # Imported here, so that QGIS starts faster.
         from ...algorithms.tools.running import run
@@ -209,16 +214,17 @@ class CompositionAlgorithm(ToolAlgorithm):
             for output in self._outputs
             if output.kind in ("raster", "features")
         }
-        results: dict[str, Any] = {name.upper(): path for name, path in paths.items() if path}
+        drawn = {name.upper(): path for name, path in paths.items() if path}
         given["input"] = self.inputs
         done = run(map_tool("classify"), given, {**paths, "output": target}, chosen, progress)
         written = cloud and str(done.vpc or cloud)
-        for line in self._commands(written, results, chosen):
+        for line in self._commands(written, drawn, chosen):
             progress.command(line)
         point_count = sum(done.class_counts.values())
         progress.share(done.ground_count, point_count, bool(given["area"]))
         if interval := done.drawn.get("contours"):
             self.show(paths["contours"], layers.contours(interval))
+        results: dict[str, object] = {**drawn}
         if cloud:
             results["OUTPUT"] = written
             do_not_load(context, {cloud} - {written})
@@ -232,7 +238,7 @@ class CompositionAlgorithm(ToolAlgorithm):
         """Yield the commands for a classified cloud, empty if none is kept, and for its rasters and
         contour lines, by the names of their fields.
         """
-        of_type: dict[type, Any] = {type(values): values for values in chosen}
+        of_type = {type(values): values for values in chosen}
         cloud = cloud or "classified.laz"
         # For many files, the folder of their virtual point cloud.
         target = str(Path(cloud).parent) if cloud.endswith(".vpc") else cloud
@@ -242,7 +248,7 @@ class CompositionAlgorithm(ToolAlgorithm):
         of_points = {name: options.get(name) for name in ("crs", "extent")}
         yield command_line("classify", words, finding, of_points)
         if layers:
-            ground = of_type[Selection].to_class
+            ground = Selection.among(chosen).to_class
             classes = {"ground-classes": "" if ground == GROUND else str(ground)}
             # The command has other defaults.
             model = TerrainModel(**vars(of_type[MapTerrain]))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from typing import Any
 
 from qgis.core import (
     QgsProcessingAlgorithm,
@@ -111,7 +110,7 @@ def help_of(declaration: Declaration) -> str:
 def parameters_of(
     algorithm: QgsProcessingAlgorithm,
     declared: type[ParameterSet],
-    parameters: dict[str, Any],
+    parameters: dict[str, object],
     context: QgsProcessingContext,
 ) -> ParameterSet:
     """Return the declared parameters with the values of the user, if these are allowed."""
@@ -126,9 +125,9 @@ def parameters_of(
 def _value(
     algorithm: QgsProcessingAlgorithm,
     declaration: Declaration,
-    parameters: dict[str, Any],
+    parameters: dict[str, object],
     context: QgsProcessingContext,
-) -> Any:
+) -> object:
     name = declaration.name.upper()
     given = parameters.get(name)
     if declaration.kind == "boolean":
@@ -159,7 +158,7 @@ def _value(
     return algorithm.parameterAsDouble(parameters, name, context)
 
 
-def _default_of(declaration: Declaration) -> Any:
+def _default_of(declaration: Declaration) -> object:
     """Return what an emptied field means that must have a value; None to refuse it."""
     return declaration.default if declaration.kind == "choice" or declaration.advanced else None
 

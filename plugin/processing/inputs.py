@@ -9,6 +9,7 @@ from typing import Any, Iterator, Sequence
 
 import numpy as np
 from qgis.core import (
+    Qgis,
     QgsCoordinateReferenceSystem,
     QgsCurve,
     QgsCurvePolygon,
@@ -86,7 +87,7 @@ class PointCloudInput(QgsProcessingParameterPointCloudLayer):
     # QGIS itself accepts only files that it can load. Without its `pdal` provider, these do not
     # include .las and .laz; with it, QGIS would index the whole file first.
 
-    def __init__(self, *arguments: Any) -> None:
+    def __init__(self, *arguments: object) -> None:
         super().__init__(*arguments)
         self.setMetadata({"widget_wrapper": {"class": _WIDGET}})
 
@@ -95,7 +96,7 @@ class PointCloudInput(QgsProcessingParameterPointCloudLayer):
         return PointCloudInput(self)
 
     def checkValueIsAcceptable(
-        self, value: Any, context: QgsProcessingContext | None = None
+        self, value: object, context: QgsProcessingContext | None = None
     ) -> bool:
         """Return whether `value` is a file or an address, or QGIS accepts it."""
         if isinstance(value, (str, Path)) and (is_address(str(value)) or _file(str(value))):
@@ -105,16 +106,16 @@ class PointCloudInput(QgsProcessingParameterPointCloudLayer):
     # The log, the history and commands get these three. QGIS itself would ask the server for the
     # layer at an address.
 
-    def valueAsPythonString(self, value: Any, context: QgsProcessingContext) -> str:
+    def valueAsPythonString(self, value: object, context: QgsProcessingContext) -> str:
         """Return a value as Python writes it, without secrets."""
         text = _without_secrets(value, context)
         return repr(text) if text else super().valueAsPythonString(value, context)
 
-    def valueAsJsonObject(self, value: Any, context: QgsProcessingContext) -> Any:
+    def valueAsJsonObject(self, value: object, context: QgsProcessingContext) -> object:
         """Return a value for JSON, without secrets."""
         return _without_secrets(value, context) or super().valueAsJsonObject(value, context)
 
-    def valueAsString(self, value: Any, context: QgsProcessingContext) -> tuple[str, bool]:
+    def valueAsString(self, value: object, context: QgsProcessingContext) -> tuple[str, bool]:
         """Return a value for qgis_process, without secrets, and whether there is one."""
         text = _without_secrets(value, context)
         return (text, True) if text else super().valueAsString(value, context)
@@ -136,7 +137,7 @@ class SurveyInput(PointCloudInput):
         return _filter("*.las *.laz *.vpc *.txt *.LAS *.LAZ")
 
 
-def _without_secrets(value: Any, context: QgsProcessingContext) -> str:
+def _without_secrets(value: object, context: QgsProcessingContext) -> str:
     """Return an address without its signature, or the id of a layer that has such an address; empty
     for other values.
     """
@@ -150,7 +151,7 @@ def _without_secrets(value: Any, context: QgsProcessingContext) -> str:
 
 def source_of(
     algorithm: QgsProcessingAlgorithm,
-    parameters: dict[str, Any],
+    parameters: dict[str, object],
     name: str,
     context: QgsProcessingContext,
 ) -> Path | Remote:
@@ -195,7 +196,7 @@ def _add_folder(algorithm: QgsProcessingAlgorithm) -> None:
 
 
 def survey_of(
-    algorithm: QgsProcessingAlgorithm, parameters: dict[str, Any], context: QgsProcessingContext
+    algorithm: QgsProcessingAlgorithm, parameters: dict[str, object], context: QgsProcessingContext
 ) -> list[Path | Remote]:
     """Return the inputs in the fields of `add_survey`, at least one; files must exist."""
     paths: list[Path | Remote] = []
@@ -247,7 +248,7 @@ def add_clouds(algorithm: QgsProcessingAlgorithm) -> None:
 
 
 def clouds_of(
-    algorithm: QgsProcessingAlgorithm, parameters: dict[str, Any], context: QgsProcessingContext
+    algorithm: QgsProcessingAlgorithm, parameters: dict[str, object], context: QgsProcessingContext
 ) -> list[Path | Remote]:
     """Return the inputs in the fields of `add_clouds`; files and folders must exist."""
     texts = algorithm.parameterAsFileList(parameters, "INPUT", context)
@@ -262,7 +263,7 @@ def clouds_of(
 
 def ignored_filter(
     algorithm: QgsProcessingAlgorithm,
-    parameters: dict[str, Any],
+    parameters: dict[str, object],
     name: str,
     context: QgsProcessingContext,
 ) -> str:
@@ -318,7 +319,7 @@ def features_of(
 
 def box_of(
     algorithm: QgsProcessingAlgorithm,
-    parameters: dict[str, Any],
+    parameters: dict[str, object],
     name: str,
     context: QgsProcessingContext,
     crs: CloudCrs,
@@ -330,7 +331,7 @@ def box_of(
 
 def raster_of(
     algorithm: QgsProcessingAlgorithm,
-    parameters: dict[str, Any],
+    parameters: dict[str, object],
     name: str,
     context: QgsProcessingContext,
     refusal: str,
@@ -350,12 +351,12 @@ def raster_of(
 
 def layer_shapes(
     algorithm: QgsProcessingAlgorithm,
-    parameters: dict[str, Any],
+    parameters: dict[str, object],
     name: str,
     label: str,
     context: QgsProcessingContext,
     crs: CloudCrs,
-    kind: Any = compat.POLYGONS,
+    kind: Qgis.ProcessingSourceType = compat.POLYGONS,
     attribute: str = "",
     may_be_empty: bool = True,
 ) -> tuple[tuple[Any, Any], ...]:

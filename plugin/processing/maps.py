@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any
 
 from qgis.core import QgsProcessingContext
 
@@ -37,7 +36,7 @@ class MapAlgorithm(ToolAlgorithm):
             self.cancelled = TILES_STAY
 
     def chosen(
-        self, parameters: dict[str, Any], context: QgsProcessingContext
+        self, parameters: dict[str, object], context: QgsProcessingContext
     ) -> list[ParameterSet]:
         """Return the declared parameters; of remote points only those in the area are written."""
         # Those around it are downloaded to judge these, and nobody asked for them.
@@ -49,12 +48,12 @@ class MapAlgorithm(ToolAlgorithm):
 
     def work(
         self,
-        inputs: dict[str, Any],
+        inputs: dict[str, object],
         outputs: dict[str, str],
         chosen: list[ParameterSet],
         context: QgsProcessingContext,
         progress: FeedbackProgress,
-    ) -> dict[str, Any]:
+    ) -> dict[str, object]:
         """Run the tool, show what was written, and return the results."""
         # Imported here, so that QGIS starts faster.
         from ...algorithms.tools.running import run

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
 
 from qgis.core import (
     QgsProcessing,
@@ -110,7 +109,7 @@ class ShippedModel(QgsProcessingModelAlgorithm):
         return ()
 
     def checkParameterValues(
-        self, parameters: dict[str, Any], context: QgsProcessingContext
+        self, parameters: dict[str, object], context: QgsProcessingContext
     ) -> tuple[bool, str]:
         """Check values as QGIS does, and outputs as the other algorithms do."""
         possible, text = super().checkParameterValues(parameters, context)
@@ -124,7 +123,7 @@ class ShippedModel(QgsProcessingModelAlgorithm):
 
     def prepareAlgorithm(
         self,
-        parameters: dict[str, Any],
+        parameters: dict[str, object],
         context: QgsProcessingContext,
         feedback: QgsProcessingFeedback,
     ) -> bool:
@@ -138,10 +137,10 @@ class ShippedModel(QgsProcessingModelAlgorithm):
 
     def processAlgorithm(
         self,
-        parameters: dict[str, Any],
+        parameters: dict[str, object],
         context: QgsProcessingContext,
         feedback: QgsProcessingFeedback,
-    ) -> dict[str, Any]:
+    ) -> dict[str, object]:
         """Run the model, with defaults for missing inputs, which QGIS would leave empty."""
         defaults = {field.name(): _default(field) for field in self.parameterDefinitions()}
         tell_of_unknown(self, parameters, feedback)
@@ -149,7 +148,7 @@ class ShippedModel(QgsProcessingModelAlgorithm):
         given.update(
             {name: defaults[name] for name in self._needed if compat.is_empty(given[name])}
         )
-        results: dict[str, Any] = {}
+        results: dict[str, object] = {}
         try:
             results = super().processAlgorithm(given, context, feedback)
         finally:
@@ -157,32 +156,31 @@ class ShippedModel(QgsProcessingModelAlgorithm):
         return results
 
     def _arrange(
-        self, given: dict[str, Any], results: dict[str, Any], context: QgsProcessingContext
+        self, given: dict[str, object], results: dict[str, object], context: QgsProcessingContext
     ) -> None:
         """Set names, styles and places of the layers; QGIS names them OUTPUT, DTM and so on."""
         # The paths by which QGIS loads them.
-        results = {
-            name: fresh_path(value) if isinstance(value, str) else value
-            for name, value in results.items()
+        paths = {
+            name: fresh_path(value) for name, value in results.items() if isinstance(value, str)
         }
         looks = layers.looks_of(context)
         # Rasters of classes, for clouds that QGIS cannot show. Those of inner steps are not wanted.
         extra = [path for path, look in looks.items() if look.title == layers.CLASSES]
-        if _CLASSIFIED not in results:
+        if _CLASSIFIED not in paths:
             do_not_load(context, extra)
             looks = layers.looks_of(context)
-        if context.willLoadLayerOnCompletion(results.get(_LINES, "")):
-            terrain = results.get("ground:DTM")
+        if context.willLoadLayerOnCompletion(paths.get(_LINES, "")):
+            terrain = paths.get("ground:DTM")
             unit = rasters.unit_of(terrain) if terrain else ""
-            interval = Interval(float(given["INTERVAL"]), unit)
-            looks[results[_LINES]] = layers.contours(interval)
+            interval = Interval(float(str(given["INTERVAL"])), unit)
+            looks[paths[_LINES]] = layers.contours(interval)
             # The terrain must be visible below its contour lines.
-            for path in {*extra, str(results.get(_CLASSIFIED))} & set(looks):
+            for path in {*extra, paths.get(_CLASSIFIED, "")} & set(looks):
                 looks[path] = looks[path]._replace(hides=layers.BELOW_TERRAIN)
         labels = {path: context.layerToLoadOnCompletionDetails(path).name for path in looks}
         titles = [look.title for look in looks.values()]
-        for name in filter(self.parameterDefinition, results):
-            path = results[name]
+        for name in filter(self.parameterDefinition, paths):
+            path = paths[name]
             if path in looks and titles.count(looks[path].title) > 1:
                 title = self.parameterDefinition(name).description()
                 looks[path] = looks[path]._replace(title=title)
@@ -194,7 +192,7 @@ class ShippedModel(QgsProcessingModelAlgorithm):
         return ShippedModel(self._file)
 
 
-def _default(field: QgsProcessingParameterDefinition) -> Any:
+def _default(field: QgsProcessingParameterDefinition) -> object:
     """Return the value of a field that is not given; outputs are temporary files."""
     return QgsProcessing.TEMPORARY_OUTPUT if field.isDestination() else field.defaultValue()
 

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from qgis.core import (
     QgsProcessingAlgorithm,
     QgsProcessingContext,
@@ -22,7 +20,7 @@ from .outputs import given_path
 
 def check_outputs(
     algorithm: QgsProcessingAlgorithm,
-    parameters: dict[str, Any],
+    parameters: dict[str, object],
     context: QgsProcessingContext,
     sources: Inputs,
 ) -> None:

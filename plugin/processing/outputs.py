@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any, Iterable, Mapping
+from typing import Iterable, Mapping
 
 from qgis.core import (
     QgsProcessing,
@@ -29,7 +29,7 @@ def after_cancel(inputs: Inputs) -> str:
     return TILES_STAY if inputs.is_survey else NOTHING_STAYS
 
 
-def given_path(value: Any, context: QgsProcessingContext) -> Path | None:
+def given_path(value: object, context: QgsProcessingContext) -> Path | None:
     """Return the path that the user gave for an output; None if QGIS makes one up, or for none."""
     value = _given(value, context)
     if compat.is_empty(value) or value == QgsProcessing.TEMPORARY_OUTPUT:
@@ -37,12 +37,12 @@ def given_path(value: Any, context: QgsProcessingContext) -> Path | None:
     return Path(value) if isinstance(value, (str, Path)) else None
 
 
-def is_blank(parameters: Mapping[str, Any], name: str, context: QgsProcessingContext) -> bool:
+def is_blank(parameters: Mapping[str, object], name: str, context: QgsProcessingContext) -> bool:
     """Return whether the user left an output empty, as tables of batch runs do with text."""
     return name in parameters and bool(compat.is_empty(_given(parameters[name], context)))
 
 
-def _given(value: Any, context: QgsProcessingContext) -> Any:
+def _given(value: object, context: QgsProcessingContext) -> object:
     """Return the text in the value of an output."""
     if isinstance(value, QgsProcessingOutputLayerDefinition):
         value = value.sink
@@ -53,7 +53,7 @@ def _given(value: Any, context: QgsProcessingContext) -> Any:
 
 def places_of(
     algorithm: QgsProcessingAlgorithm,
-    parameters: dict[str, Any],
+    parameters: dict[str, object],
     context: QgsProcessingContext,
 ) -> list[Path]:
     """Return the files and folders that the user chose for outputs, and what is made of them."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from html import escape
-from typing import Any, Collection, Sequence
+from typing import Collection, Sequence
 
 from ...algorithms.core.parameters import ParameterSet
 from ...algorithms.filters import METHODS
@@ -56,7 +56,7 @@ def _table(method: Method, offered: Collection[str]) -> str:
     return f'<table border="1" cellspacing="0" cellpadding="2">{head}{body}</table>'
 
 
-def _shown(value: Any) -> str:
+def _shown(value: object) -> str:
     if value is None:
         return "-"
     values = value if isinstance(value, tuple) else (value,)

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from qgis.core import (
     QgsCoordinateReferenceSystem,
     QgsProcessingAlgorithm,
@@ -18,7 +16,7 @@ _NAME = "CRS"
 
 
 def stated_crs_of(
-    algorithm: QgsProcessingAlgorithm, parameters: dict[str, Any], context: QgsProcessingContext
+    algorithm: QgsProcessingAlgorithm, parameters: dict[str, object], context: QgsProcessingContext
 ) -> str | None:
     """Return the known CRS in the field, as the requests take it; None if it is empty."""
     if algorithm.parameterDefinition(_NAME) is None or compat.is_empty(parameters.get(_NAME)):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any, Callable, Mapping, NamedTuple, Sequence
+from typing import Any, Callable, NamedTuple, Sequence
 
 from qgis.core import (
     QgsProcessingContext,
@@ -29,7 +29,7 @@ from ...algorithms.tools.rasters.constraints import Constraints
 from .. import compat
 from ..i18n import mark
 from .area import add_area, area_in_own_crs, area_of, area_options
-from .base import BareEarthAlgorithm
+from .base import BareEarthAlgorithm, Options
 from .checkpoints import CheckpointInput, checkpoints_of
 from .feedback import Refusal
 from .inputs import (
@@ -71,8 +71,8 @@ _ATTRIBUTES = {
 class Given(NamedTuple):
     """What a user gives for an input."""
 
-    value: Any  # as the tool gets it; None for nothing
-    options: Mapping[str, Any] = MappingProxyType({})  # of the command line
+    value: object  # as the tool gets it; None for nothing
+    options: Options = MappingProxyType({})  # of the command line
     # Of an input that the command needs: its words, files and name.
     arguments: tuple[str, ...] = ()
     paths: tuple[Path, ...] = ()
@@ -84,7 +84,7 @@ class Request(NamedTuple):
     """A dialog with the values that a user gives."""
 
     algorithm: BareEarthAlgorithm
-    parameters: dict[str, Any]
+    parameters: dict[str, object]
     context: QgsProcessingContext
     progress: Progress = SILENT
 
@@ -223,7 +223,7 @@ def _corrections(request: Request, declared: Input) -> Given:
 
 def _constraints(request: Request, declared: Input) -> Given:
     algorithm, parameters, context, progress = request
-    shapes: dict[str, Any] = {}
+    shapes: dict[str, Any] = {}  # of lines or of polygons
     for part in GROUPS[declared.kind]:
         if not request.is_empty(part):
             field = algorithm, parameters, part.field_name, part.label, context, _crs_of(request)

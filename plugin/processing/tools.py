@@ -23,6 +23,7 @@ from ...algorithms.classes.kept_classes import GROUND
 from ...algorithms.core.files import split_name
 from ...algorithms.core.parameters import ParameterSet
 from ...algorithms.engine.memory import Resources
+from ...algorithms.engine.summary import RunSummary, SurveySummary, TileSummary
 from ...algorithms.survey.files import Inputs
 from ...algorithms.tools import file_tool, point_tool
 from ...algorithms.tools.declaration import FileTool, Output, PointTool, Tool, with_note
@@ -32,7 +33,7 @@ from .. import compat
 from ..i18n import mark, tr
 from ..styles import layers
 from .area import has_area
-from .base import BareEarthAlgorithm, command_line
+from .base import BareEarthAlgorithm, Options, command_line
 from .classified import show_class_raster
 from .feedback import FeedbackProgress, Refusal
 from .inputs import ignored_filter
@@ -88,16 +89,16 @@ class ToolAlgorithm(BareEarthAlgorithm):
 
     def work(
         self,
-        inputs: dict[str, Any],
+        inputs: dict[str, object],
         outputs: dict[str, str],
         chosen: list[ParameterSet],
         context: QgsProcessingContext,
         progress: FeedbackProgress,
-    ) -> dict[str, Any]:
+    ) -> dict[str, object]:
         """Let the tool work, show what it has written, and return the results."""
         raise NotImplementedError
 
-    def initAlgorithm(self, configuration: dict[str, Any] | None = None) -> None:
+    def initAlgorithm(self, configuration: dict[str, object] | None = None) -> None:
         """Declare the fields of the dialog and the results."""
         for declared in self._inputs:
             if not declared.is_last:
@@ -124,7 +125,7 @@ class ToolAlgorithm(BareEarthAlgorithm):
         for name, label in self._tool.texts:
             self.addOutput(QgsProcessingOutputString(name, label))
 
-    def find_inputs(self, parameters: dict[str, Any], context: QgsProcessingContext) -> None:
+    def find_inputs(self, parameters: dict[str, object], context: QgsProcessingContext) -> None:
         """Find the input files."""
         request = Request(self, parameters, context)
         self._given = {
@@ -152,7 +153,7 @@ class ToolAlgorithm(BareEarthAlgorithm):
 
     def prepare(
         self,
-        parameters: dict[str, Any],
+        parameters: dict[str, object],
         context: QgsProcessingContext,
         progress: FeedbackProgress,
     ) -> None:
@@ -180,7 +181,7 @@ class ToolAlgorithm(BareEarthAlgorithm):
 
     def bring(
         self,
-        parameters: dict[str, Any],
+        parameters: dict[str, object],
         context: QgsProcessingContext,
         progress: FeedbackProgress,
     ) -> None:
@@ -226,10 +227,10 @@ class ToolAlgorithm(BareEarthAlgorithm):
 
     def compute(
         self,
-        parameters: dict[str, Any],
+        parameters: dict[str, object],
         context: QgsProcessingContext,
         progress: FeedbackProgress,
-    ) -> dict[str, Any]:
+    ) -> dict[str, object]:
         """Find what else is given, tell the command, and work."""
         request = Request(self, parameters, context, progress)
         self._find_late(request)
@@ -295,14 +296,14 @@ class ToolAlgorithm(BareEarthAlgorithm):
         """Return the arguments of the command for files."""
         return [word for found in self._given.values() for word in found.arguments]
 
-    def _options(self, paths: dict[str, str]) -> dict[str, Any]:
+    def _options(self, paths: dict[str, str]) -> Options:
         """Return the options of the command for inputs and outputs."""
         own = {output.option: paths[output.name] for output in self._outputs if not output.is_main}
         return {**self._options_of_inputs(), **own}
 
-    def _options_of_inputs(self) -> dict[str, Any]:
+    def _options_of_inputs(self) -> Options:
         """Return the options of the command for inputs."""
-        options: dict[str, Any] = {}
+        options: dict[str, str | tuple[str, ...] | None] = {}
         for declared in self._inputs:
             # Several inputs have an option for the CRS, which one of them gives.
             found = self._given[declared.name].options if declared.name in self._given else {}
@@ -317,12 +318,12 @@ class FileToolAlgorithm(ToolAlgorithm):
 
     def work(
         self,
-        inputs: dict[str, Any],
+        inputs: dict[str, object],
         outputs: dict[str, str],
         chosen: list[ParameterSet],
         context: QgsProcessingContext,
         progress: FeedbackProgress,
-    ) -> dict[str, Any]:
+    ) -> dict[str, object]:
         """Let the tool work, show what it has written, and return the results."""
         # Imported here, so that QGIS starts faster.
         from ...algorithms.tools.running import run
@@ -331,7 +332,7 @@ class FileToolAlgorithm(ToolAlgorithm):
         if self._tool.json is not None:
             lines = found.lines() if hasattr(found, "lines") else [found.text]
             progress.info("\n".join(lines))
-        results: dict[str, Any] = {}
+        results: dict[str, object] = {}
         for output in self._outputs:
             if path := outputs[output.name]:
                 results[output.field_name] = path
@@ -382,12 +383,12 @@ class PointToolAlgorithm(ToolAlgorithm):
 
     def work(
         self,
-        inputs: dict[str, Any],
+        inputs: dict[str, object],
         outputs: dict[str, str],
         chosen: list[ParameterSet],
         context: QgsProcessingContext,
         progress: FeedbackProgress,
-    ) -> dict[str, Any]:
+    ) -> dict[str, object]:
         """Find the values of the points, write them, and show the points."""
         from ...algorithms.tools.running import run
 
@@ -412,7 +413,12 @@ class PointToolAlgorithm(ToolAlgorithm):
             show_class_raster(self, output, self.class_counts, first, context, progress)
         return {"OUTPUT": output, **numbers}
 
-    def _look(self, chosen: list[ParameterSet], found: Any, numbers: dict[str, Any]) -> layers.Look:
+    def _look(
+        self,
+        chosen: list[ParameterSet],
+        found: TileSummary | SurveySummary,
+        numbers: dict[str, float],
+    ) -> layers.Look:
         """Return the look of the written points."""
         if self._tool.shows != "heights":
             return layers.classes(found.class_counts, _TITLES[self._tool.shows])
@@ -421,7 +427,7 @@ class PointToolAlgorithm(ToolAlgorithm):
         return layers.heights("Z" if is_z else HEIGHT_DIMENSION, numbers["MAXIMUM"], unit)
 
 
-def _numbers_of(found: Any, names: list[str]) -> dict[str, Any]:
+def _numbers_of(found: RunSummary, names: list[str]) -> dict[str, float]:
     """Return the outputs that are numbers, from a summary of one file or of many."""
     return {
         name: _TOGETHER.get(name, sum)(getattr(file, name.lower()) for file in found.tiles)

@@ -6,7 +6,7 @@ uses the result. The model designer needs another type of widget than other dial
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Iterable
 
 from qgis.core import (
     QgsPointCloudLayer,
@@ -51,7 +51,7 @@ _CHECKED = 2
 class ChoiceWidget:
     """Makes the widget of a choice: with labels, but with values in the model designer."""
 
-    def __new__(cls, parameter: ChoiceParameter, dialog: QWidget, *_: Any) -> Any:
+    def __new__(cls, parameter: ChoiceParameter, dialog: QWidget, *_: object) -> Any:
         """Return a widget, not an instance of this class."""
         if _is_designer(dialog):
             return _designer_widget(parameter, dialog)
@@ -64,7 +64,9 @@ class ChoiceWidget:
 class CheckWidget:
     """Makes the widget of a boolean: a box that has always a value, so it is not "[optional]"."""
 
-    def __new__(cls, parameter: QgsProcessingParameterDefinition, dialog: QWidget, *_: Any) -> Any:
+    def __new__(
+        cls, parameter: QgsProcessingParameterDefinition, dialog: QWidget, *_: object
+    ) -> Any:
         """Return a widget, not an instance of this class."""
         if _is_designer(dialog):
             return _designer_widget(parameter, dialog)
@@ -80,7 +82,9 @@ class PointCloudWidget:
     # cannot be .las and .laz files; texts are addresses. In a dialog for one run, a cloud of the
     # project is chosen at first.
 
-    def __new__(cls, parameter: QgsProcessingParameterDefinition, dialog: QWidget, *_: Any) -> Any:
+    def __new__(
+        cls, parameter: QgsProcessingParameterDefinition, dialog: QWidget, *_: object
+    ) -> Any:
         """Return a widget, not an instance of this class."""
         if _kind(dialog) == QgsProcessingGui.WidgetType.Standard and not _is_designer(dialog):
             return _CloudBox(parameter, _kind(dialog), dialog)
@@ -97,12 +101,14 @@ def _is_designer(dialog: QWidget) -> bool:
     return type(dialog).__name__ == "ModelerParametersDialog"
 
 
-def _kind(dialog: QWidget) -> Any:
+def _kind(dialog: QWidget) -> QgsProcessingGui.WidgetType:
     is_batch = type(dialog).__name__.startswith("Batch")
     return QgsProcessingGui.WidgetType.Batch if is_batch else QgsProcessingGui.WidgetType.Standard
 
 
-def _usual_widget(parameter: QgsProcessingParameterDefinition, dialog: QWidget) -> Any:
+def _usual_widget(
+    parameter: QgsProcessingParameterDefinition, dialog: QWidget
+) -> QgsAbstractProcessingParameterWidgetWrapper:
     """Return the widget of QGIS in a dialog or in batch mode."""
     registry = QgsGui.processingGuiRegistry()
     widget = registry.createParameterWidgetWrapper(parameter, _kind(dialog))
@@ -144,13 +150,13 @@ class _CheckBox(QgsAbstractProcessingParameterWidgetWrapper):
         box.toggled.connect(lambda _: self.widgetValueHasChanged.emit(self))
         return box
 
-    def setWidgetValue(self, value: Any, context: QgsProcessingContext) -> None:
+    def setWidgetValue(self, value: object, context: QgsProcessingContext) -> None:
         """Check the box or not, also as in an earlier run."""
         box, parameter = self.wrappedWidget(), self.parameterDefinition()
         if box is not None and not compat.is_null(value):
             box.setChecked(QgsProcessingParameters.parameterAsBool(parameter, value, context))
 
-    def widgetValue(self) -> Any:
+    def widgetValue(self) -> bool:
         """Return whether the box is checked."""
         return self.wrappedWidget().isChecked()
 
@@ -172,7 +178,7 @@ class _ChoiceBox(QgsAbstractProcessingParameterWidgetWrapper):
         box.currentIndexChanged.connect(lambda _: self.widgetValueHasChanged.emit(self))
         return box
 
-    def setWidgetValue(self, value: Any, context: QgsProcessingContext) -> None:
+    def setWidgetValue(self, value: object, context: QgsProcessingContext) -> None:
         """Choose a value, also one of an earlier run."""
         # Fetched each time: QGIS owns the box, so a stored reference would become invalid.
         box = self.wrappedWidget()
@@ -180,7 +186,7 @@ class _ChoiceBox(QgsAbstractProcessingParameterWidgetWrapper):
             value = value_of(value, self.parameterDefinition().options())
             box.setCurrentIndex(box.findData(value))
 
-    def widgetValue(self) -> Any:
+    def widgetValue(self) -> str:
         """Return the chosen value."""
         return self.wrappedWidget().currentData()
 
@@ -207,7 +213,7 @@ class _DeliveryBox(_ChoiceBox):
         self.widgetValueHasChanged.connect(self._show_fields)
         self._show_fields()
 
-    def _show_fields(self, *_: Any) -> None:
+    def _show_fields(self, *_: object) -> None:
         is_delivery = self.widgetValue() != NO_DELIVERY
         shown = {
             self._folder: is_delivery,
@@ -239,13 +245,13 @@ class _ChoicesBox(QgsAbstractProcessingParameterWidgetWrapper):
         box.checkedItemsChanged.connect(lambda _: self.widgetValueHasChanged.emit(self))
         return box
 
-    def setWidgetValue(self, value: Any, context: QgsProcessingContext) -> None:
+    def setWidgetValue(self, value: str | Iterable[object], context: QgsProcessingContext) -> None:
         """Choose values, also those of an earlier run."""
         box = self.wrappedWidget()
         if box is not None and not compat.is_null(value):
             _check(box, values_of(value, self.parameterDefinition().options()))
 
-    def widgetValue(self) -> Any:
+    def widgetValue(self) -> list[str]:
         """Return the chosen values, in the order of the list."""
         box = self.wrappedWidget()
         states = [Qt.CheckState(box.itemData(place, _STATE)) for place in range(box.count())]
@@ -266,7 +272,7 @@ class _CloudBox(QgsAbstractProcessingParameterWidgetWrapper):
         box.setWidgetContext(self.widgetContext())
         self._suggested: str | None = None
         self._extent: QgsAbstractProcessingParameterWidgetWrapper | None = None
-        self._shown: Any = None  # the suggested extent
+        self._shown: object = None  # the suggested extent
         names = _names_in(box)
         # In QGIS 3.22 it would offer all layers, and choose one of them.
         sip.cast(names, QgsMapLayerComboBox).setFilters(compat.POINT_CLOUDS)
@@ -290,7 +296,7 @@ class _CloudBox(QgsAbstractProcessingParameterWidgetWrapper):
         if self.wrappedWidget() is not None:
             self._box.setWidgetContext(context)
 
-    def setWidgetValue(self, value: Any, context: QgsProcessingContext) -> None:
+    def setWidgetValue(self, value: object, context: QgsProcessingContext) -> None:
         """Choose a value, but for the first one, the default of the dialog, which is empty."""
         if self.wrappedWidget() is None:
             return
@@ -301,7 +307,7 @@ class _CloudBox(QgsAbstractProcessingParameterWidgetWrapper):
         self._box.setValue(value or None, context)
         _show_choice(_names_in(self._box))
 
-    def widgetValue(self) -> Any:
+    def widgetValue(self) -> object:
         """Return the layer or file, or what is typed."""
         value = self._box.value()
         return value.strip() if isinstance(value, str) else value
@@ -319,7 +325,7 @@ class _CloudBox(QgsAbstractProcessingParameterWidgetWrapper):
         self.widgetValueHasChanged.connect(self._suggest_extent)
         self._suggest_extent()
 
-    def _suggest_extent(self, *_: Any) -> None:
+    def _suggest_extent(self, *_: object) -> None:
         """Show the extent of the map for remote points, unless the user gave one."""
         if self._extent is None:
             return
@@ -381,7 +387,7 @@ def _narrow(box: QComboBox) -> QComboBox:
     return box
 
 
-def _check(box: QComboBox, values: list[str]) -> None:
+def _check(box: QComboBox, values: Iterable[object]) -> None:
     """Choose only the items with these values."""
     # QGIS returns the box as a QComboBox, which has no method for this.
     for place in range(box.count()):

@@ -53,7 +53,7 @@ class Look(NamedTuple):
 
     title: str  # in the group of the run, which has the name of the input
     height: int  # in the group; the greatest is on top
-    dress: Callable[[Any], None]  # sets the style of a layer, in the main thread
+    dress: Callable[[QgsMapLayer], None]  # sets the style of a layer, in the main thread
     # of the layers that hide each other, only that with the greatest is visible; 0: none
     hides: int = 0
     # what colours mean, in the user's language; empty for rasters, whose files state it
@@ -112,7 +112,7 @@ def look_of(name: str, found: Any = None) -> Look:
 def in_crs(look: Look, crs: QgsCoordinateReferenceSystem) -> Look:
     """Return the look of a point cloud whose file does not state its CRS, or a wrong one."""
 
-    def dress(layer: Any) -> None:
+    def dress(layer: QgsMapLayer) -> None:
         if isinstance(layer, QgsPointCloudLayer):
             layer.setCrs(crs)
         look.dress(layer)

@@ -9,7 +9,7 @@ import os
 import sys
 import threading
 from pathlib import Path
-from typing import Any, Callable, Iterable, Iterator, Mapping, NamedTuple, Sequence
+from typing import Callable, Iterable, Iterator, Mapping, NamedTuple, Sequence
 
 from qgis.core import (
     QgsLayerTreeGroup,
@@ -126,10 +126,12 @@ def show_fresh_points(layer: QgsMapLayer) -> None:
         layer.setSubsetString(f"({own}) AND {fresh}" if own else fresh)
 
 
-def filter_of(layer: Any) -> str:
+def filter_of(layer: QgsMapLayer | None) -> str:
     """Return the filter that the user gave to a layer; empty if there is none."""
     # Point cloud layers have filters since QGIS 3.26.
-    found = layer.subsetString() if hasattr(layer, "subsetString") else ""
+    found = ""
+    if layer is not None and hasattr(layer, "subsetString"):
+        found = layer.subsetString()
     own, passed, _ = found.rpartition(_PASSED)
     return own.removesuffix(" AND ").removeprefix("(").removesuffix(")") if passed else found
 
@@ -153,7 +155,7 @@ def edited(project: QgsProject | None, sources: Iterable[Source]) -> str:
     return ""
 
 
-def has_edits(layer: Any) -> bool:
+def has_edits(layer: QgsMapLayer) -> bool:
     """Return whether a layer has edits that are not saved."""
     # Point clouds can be edited since QGIS 3.42.
     return hasattr(layer, "isModified") and layer.isEditable() and layer.isModified()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import datetime
-from typing import Any, Mapping, NamedTuple
+from typing import Mapping, NamedTuple
 
 from qgis.core import (
     QgsMapLayer,
@@ -37,7 +37,7 @@ class Origin(NamedTuple):
 
 def settings_of(
     algorithm: QgsProcessingAlgorithm,
-    parameters: Mapping[str, Any],
+    parameters: Mapping[str, object],
     context: QgsProcessingContext,
 ) -> tuple[str, ...]:
     """Return the inputs and parameters of a run in words, except those that are empty."""
@@ -49,7 +49,7 @@ def settings_of(
     return tuple(found)
 
 
-def _text(value: Any, context: QgsProcessingContext) -> str:
+def _text(value: object, context: QgsProcessingContext) -> str:
     if isinstance(value, (list, tuple)):
         return ", ".join(_text(part, context) for part in value)
     layer = value

@@ -3,9 +3,16 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any, Callable, Iterable, Mapping
+from typing import Callable, Iterable, Mapping
 
-from qgis.core import QgsLayerTreeGroup, QgsMapLayer, QgsProcessingContext, QgsProject, QgsSettings
+from qgis.core import (
+    QgsLayerTreeGroup,
+    QgsLayerTreeLayer,
+    QgsMapLayer,
+    QgsProcessingContext,
+    QgsProject,
+    QgsSettings,
+)
 
 from ...algorithms.core.errors import BareEarthError
 from ..i18n import tr
@@ -74,7 +81,7 @@ class Stage:
 
         loaded.later(reload)
 
-    def place(self, node: Any, height: int) -> Any:
+    def place(self, node: QgsLayerTreeLayer, height: int) -> QgsLayerTreeLayer:
         """Move a layer to its place in the group, which is made if needed; return its new node."""
         group = self._old_group() if self.is_old else None
         return _moved(node, group or _group_of(node, self.group), height)
@@ -97,14 +104,14 @@ def free_name(project: QgsProject | None, name: str) -> str:
     return next((free for free in names if root.findGroup(free) is None), name)
 
 
-def _moved(node: Any, group: QgsLayerTreeGroup, height: int) -> Any:
+def _moved(node: QgsLayerTreeLayer, group: QgsLayerTreeGroup, height: int) -> QgsLayerTreeLayer:
     copy = node.clone()
     group.insertChildNode(_place_in(group, node, height), copy)
     node.parent().removeChildNode(node)
     return copy
 
 
-def _group_of(node: Any, name: str) -> QgsLayerTreeGroup:
+def _group_of(node: QgsLayerTreeLayer, name: str) -> QgsLayerTreeGroup:
     """Return the group with this name; make it on top of the tree, or in the user's group."""
     home = node
     while home.parent() is not None:
@@ -114,7 +121,7 @@ def _group_of(node: Any, name: str) -> QgsLayerTreeGroup:
     return home.findGroup(name) or home.insertGroup(0, name)
 
 
-def _place_in(group: QgsLayerTreeGroup, node: Any, height: int) -> int:
+def _place_in(group: QgsLayerTreeGroup, node: QgsLayerTreeLayer, height: int) -> int:
     """Return the index of the first layer that must be below, or -1 for the end."""
     # The node itself is skipped: QGIS may have put it into the group already, in another place.
     for place, child in enumerate(group.children()):
