@@ -49,24 +49,30 @@ _LEAST_REACH = 100.0
 
 # The preset with the rules of the paper.
 CLASSIC = "paper"
-_PAPER_TOLERANCE = 0.4  # metres above the surface of the ground in level terrain
 
 
 class Preset(NamedTuple):
-    """The values of a preset."""
+    """The values of a preset; lengths in metres."""
 
-    # Least cell size in metres. It grows where points are sparse, except in the paper's preset.
-    cell_size: float
-    height_thresholds: tuple[float, ...]  # in metres
-    # In metres.
+    cell_size: float  # the least; cells are larger where points are sparse
+    height_thresholds: tuple[float, ...]
     final_height: float
     max_object_size: float
-    # In metres, None for what follows from the points; and as a share of the rise.
-    ground_tolerance: float | None = None
-    slope_tolerance: float = 1.4
+    slope_tolerance: float = 1.4  # share of the rise of the ground
 
 
-PRESETS = {
+class PaperPreset(NamedTuple):
+    """The values of the paper, named as those of `Preset`, and its ground tolerance."""
+
+    cell_size: float = 0.5
+    height_thresholds: tuple[float, ...] = (5.0, 4.5, 2.0)
+    final_height: float = 0.3
+    max_object_size: float = 40.0
+    ground_tolerance: float = 0.4  # above the surface of the ground in level terrain
+    slope_tolerance: float = 0.6
+
+
+PRESETS: dict[str, Preset | PaperPreset] = {
     "automatic": Preset(1.0, (5.0, 2.0), 0.3, 150.0),
     "flat": Preset(1.0, (5.0, 2.0), 0.25, 40.0),
     "hilly": Preset(2.0, (5.0, 2.0), 0.3, 25.0),
@@ -74,7 +80,7 @@ PRESETS = {
     "town": Preset(1.0, (5.0, 2.0), 0.3, 60.0),
     "city": Preset(1.0, (5.0, 2.0), 0.3, 120.0),
     "site": Preset(0.5, (5.0, 2.0), 0.5, 25.0),
-    CLASSIC: Preset(0.5, (5.0, 4.5, 2.0), 0.3, 40.0, _PAPER_TOLERANCE, 0.6),
+    CLASSIC: PaperPreset(),
 }
 
 
@@ -152,11 +158,11 @@ class GridMinimum(ParameterSet):
         return self._resolved(_counting_cells(points, self))
 
     def _resolved(self, cells: Cells) -> GridMinimum:
-        preset = PRESETS[self.preset]
+        values = PRESETS[self.preset]._asdict()
         if self.cell_size is None and self.preset != CLASSIC:
             large_enough = _CELL_STEP * _multiple(density(cells), _CELL_STEP)
-            preset = preset._replace(cell_size=max(preset.cell_size, large_enough))
-        return self.filled(preset._asdict())
+            values["cell_size"] = max(values["cell_size"], large_enough)
+        return self.filled(values)
 
 
 def largest_object(parameters: GridMinimum) -> float:
@@ -177,17 +183,18 @@ def pipeline(points: Points, parameters: GridMinimum, progress: Progress) -> Pip
     resolved = parameters._resolved(cells)
     values = as_given(PRESETS[parameters.preset], resolved)
     if resolved != parameters:
-        progress.choice(_in_words(resolved))
+        names = "preset", "cell_size", "height_thresholds", "final_height", "max_object_size"
+        progress.choice(f"Grid minimum: {resolved.in_words(*names)}.")
     if parameters.cell_size is not None or parameters.preset == CLASSIC:
         _tell_of_gaps(density(cells), values.cell_size, progress)
-    size, heights = values.max_object_size, values.height_thresholds
     if resolved.preset == CLASSIC:
-        return _classic(values)
+        return _classic(as_given(PaperPreset(), resolved))
+    size, heights = values.max_object_size, values.height_thresholds
     objects = RaisedObjects(size, heights)
     return shared_pipeline(
         LowestPoints(size=values.cell_size),
         size,
-        ToleranceSurface(values.ground_tolerance, values.slope_tolerance),
+        ToleranceSurface(resolved.ground_tolerance, values.slope_tolerance),
         (Seeds(objects_wait=True), FineSeeds(values.final_height)),
         Plants(where_dense=False),
         is_site=parameters.preset == "site",
@@ -196,9 +203,9 @@ def pipeline(points: Points, parameters: GridMinimum, progress: Progress) -> Pip
     )
 
 
-def _classic(values: Preset) -> Pipeline:
+def _classic(values: PaperPreset) -> Pipeline:
     """Return the rules of the paper's preset."""
-    heights, tolerance = values.height_thresholds, values.ground_tolerance
+    heights = values.height_thresholds
     objects = RaisedObjects(values.max_object_size, heights, whole_share=0.4, plateau_height=None)
     return Pipeline(
         (
@@ -206,17 +213,10 @@ def _classic(values: Preset) -> Pipeline:
             BlockPits(),
             TallObjects(objects, min(heights)),
             Rims(objects, values.final_height, objects_grow_back=True, width=None),
-            PaperSurface(
-                _PAPER_TOLERANCE if tolerance is None else tolerance, values.slope_tolerance
-            ),
+            PaperSurface(values.ground_tolerance, values.slope_tolerance),
             NearSurface(),
         )
     )
-
-
-def _in_words(parameters: GridMinimum) -> str:
-    names = "preset", "cell_size", "height_thresholds", "final_height", "max_object_size"
-    return f"Grid minimum: {parameters.in_words(*names)}."
 
 
 def _tell_of_gaps(density: float, size: float, progress: Progress) -> None:
@@ -243,13 +243,6 @@ def _counting_cells(points: Points, parameters: GridMinimum) -> Cells:
 
 
 METHOD = Method(
-    "grid-minimum",
-    "Grid minimum",
-    GridMinimum,
-    pipeline,
-    reach,
-    largest_object,
-    "max_object_size",
-    CLASSIC,
-    PRESETS,
-)
+    "grid-minimum", "Grid minimum", GridMinimum, pipeline, reach, largest_object,
+    "max_object_size", CLASSIC, PRESETS,
+)  # fmt: skip

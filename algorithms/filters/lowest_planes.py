@@ -14,7 +14,7 @@ from ..core.threads import parts_of
 from ..grids.cells import Cells
 from ..grids.gradient import gradient
 from ..grids.inpaint import inpaint
-from ..grids.morphology import median_of_nine, within_square
+from ..grids.morphology import closing_by_square, median_of_nine, within_square
 
 # Directions in which the surroundings are looked at.
 SIDES = 8
@@ -132,8 +132,7 @@ class LowestOfCells(NamedTuple):
         known = np.isfinite(self.z[inner])
         filled = inpaint(self.z[inner], first=cells.first)
         filled -= self._beside_centre(cells, filled)
-        closed = within_square(np.minimum, within_square(np.maximum, filled, reach), reach)
-        raised = np.where(known, closed - filled, 0.0)
+        raised = np.where(known, closing_by_square(filled, reach) - filled, 0.0)
         pits = raised >= within_square(np.maximum, raised, reach)
         pits |= filled <= within_square(np.minimum, filled, reach)
         return self.places(pits & (raised > depth))

@@ -74,7 +74,7 @@ class Method(NamedTuple):
     size_parameter: str  # name of the parameter with this width
     # The preset that does the same as the original program or paper, without additions.
     classic: str
-    presets: Mapping[str, Any]  # the values of each preset that has some, for the help
+    presets: Mapping[str, NamedTuple]  # the values of each preset that has some, for the help
     takes_known_ground: bool = False  # whether the pipeline starts from points of known ground
 
     def ground(
@@ -124,11 +124,24 @@ class Method(NamedTuple):
         return size, labels[self.size_parameter]
 
 
-def of_preset(label: str, limits: tuple[float, float], help: str, **more: Any) -> Any:
-    """Declare a number that follows from the preset where it is empty, by default in metres."""
-    least, most = limits
-    values = {"unit": "m", "kind": "number", "empty": "automatic", **more}
-    return parameter(None, label=label, minimum=least, maximum=most, help=help, **values)
+def of_preset(
+    label: str, limits: tuple[float, float], help: str, unit: str = "m", advanced: bool = False
+) -> Any:  # as `parameter`
+    """Declare a number that the preset gives if the user leaves it empty."""
+    return parameter(
+        None, label=label, help=help, unit=unit, minimum=limits[0], maximum=limits[1],
+        advanced=advanced, kind="number", empty="automatic",
+    )  # fmt: skip
+
+
+def of_metres(
+    default: float | None, label: str, most: float, help: str, optional: bool = False
+) -> Any:  # as `parameter`
+    """Declare an advanced length in metres, from 0 on, which may be left out if it is optional."""
+    return parameter(
+        default, label=label, help=help, unit="m", minimum=0.0, maximum=most,
+        advanced=True, kind="number", optional=optional,
+    )  # fmt: skip
 
 
 def as_given(preset: _Preset, parameters: ParameterSet) -> _Preset:

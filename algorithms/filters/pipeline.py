@@ -12,7 +12,7 @@ import threading
 import time
 from dataclasses import dataclass
 from enum import Enum
-from typing import Any, ClassVar, Iterator
+from typing import ClassVar, Iterator
 
 import numpy as np
 
@@ -50,8 +50,8 @@ class Rule:
     writes: ClassVar[tuple[str, ...]] = ()  # fields of the state that the rule changes
     name: ClassVar[str]
 
-    def __init_subclass__(cls, **keywords: Any) -> None:
-        super().__init_subclass__(**keywords)
+    def __init_subclass__(cls) -> None:
+        super().__init_subclass__()
         cls.name = re.sub(r"(?<!^)(?=[A-Z])", "-", cls.__name__).lower()
 
     def parts(self) -> Iterator[Rule]:

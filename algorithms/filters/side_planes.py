@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import Any, Callable, NamedTuple
+from typing import TYPE_CHECKING, Callable, NamedTuple
 
 import numpy as np
 
@@ -12,6 +12,9 @@ from ..core.progress import SILENT
 from ..core.threads import over_parts
 from ..grids.cells import Cells, cells_at
 from ..grids.planes import means_and_moments, plane_slopes
+
+if TYPE_CHECKING:
+    from scipy.spatial import cKDTree
 
 _NEIGHBOURS = 16  # nearest neighbours that are used
 LEAST = 4  # of them on a side, for a plane
@@ -33,9 +36,10 @@ _MOST_VOID = 8
 _LAST_BITS = 63  # hold the number of one of 49 cells
 _ANGLES = 2.0 * np.pi * np.arange(_SIDES) / _SIDES
 
-# Says of which points of a part the plane of one side (rise, slopes, misfit) decides enough: of
-# seeds that rules doubt, those of half to most, whichever side it is.
-Enough = Callable[..., np.ndarray]
+# Takes a part of the points and the plane of one side of each: rise, slopes to the east and to the
+# north, and misfit, each (n,). Returns which points need no other side, bool (n,). For half to most
+# of the seeds that rules doubt, the first side is enough.
+Enough = Callable[[slice, np.ndarray, np.ndarray, np.ndarray, np.ndarray], np.ndarray]
 
 
 class Sides:
@@ -55,7 +59,7 @@ class Sides:
             self._of_cells = _OfCells.over(cells, ground)
 
     @cached_property
-    def _tree(self) -> Any:
+    def _tree(self) -> cKDTree:
         """The ground, for neighbours that are not found by cell."""
         from scipy.spatial import cKDTree
 

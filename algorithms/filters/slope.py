@@ -18,7 +18,7 @@ from ..core.parameters import ParameterSet, parameter
 from ..core.points import Points
 from ..core.progress import Progress
 from ..grids.cells import spacing
-from .method import TERRAINS, Method, as_given, of_preset
+from .method import TERRAINS, Method, as_given, of_metres, of_preset
 from .pipeline import Pipeline
 from .stages import shared_pipeline
 from .stages.breaks import Plants
@@ -147,14 +147,11 @@ class SlopeFilter(ParameterSet):
         " preset Whitebox.",
         advanced=True,
     )
-    slope_tolerance: float = parameter(
+    slope_tolerance: float = of_metres(
         1.4,
-        label="Ground tolerance on slopes",
-        unit="m",
-        minimum=0.0,
-        maximum=10.0,
-        advanced=True,
-        help="Added to the ground tolerance on a slope of 45 degrees, if points are a metre apart."
+        "Ground tolerance on slopes",
+        10.0,
+        "Added to the ground tolerance on a slope of 45 degrees, if points are a metre apart."
         " Less is added, in proportion, on gentler slopes and if points are closer.",
     )
 
@@ -229,13 +226,6 @@ def _in_words(parameters: SlopeFilter) -> str:
 
 
 METHOD = Method(
-    "slope",
-    "Slope filter",
-    SlopeFilter,
-    pipeline,
-    reach,
-    largest_object,
-    "max_building_size",
-    CLASSIC,
-    MANY_SCALES,
-)
+    "slope", "Slope filter", SlopeFilter, pipeline, reach, largest_object, "max_building_size",
+    CLASSIC, MANY_SCALES,
+)  # fmt: skip

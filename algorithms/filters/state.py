@@ -11,7 +11,7 @@ from ..core.points import Points
 from ..core.progress import Progress
 from ..core.threads import in_threads
 from ..grids.cells import Cells, first_of_each, spacing
-from ..grids.morphology import within_square
+from ..grids.morphology import closing_by_square
 from .height_grid import HeightGrid
 
 # Least spacing of points in metres; a smaller one counts as this.
@@ -221,7 +221,4 @@ class State:
 
 def covered(known: np.ndarray) -> np.ndarray:
     """Return which cells were surveyed: cells with a height (rows, columns), and small gaps."""
-    closed = np.pad(known, _GAP)
-    for extreme in (np.maximum, np.minimum):
-        closed = within_square(extreme, closed, _GAP)
-    return closed[_GAP:-_GAP, _GAP:-_GAP]
+    return closing_by_square(np.pad(known, _GAP), _GAP)[_GAP:-_GAP, _GAP:-_GAP]

@@ -20,7 +20,7 @@ from ..core.points import Points
 from ..core.progress import Progress
 from ..grids.cells import spacing
 from ..tin.model_key_points import ModelKeyPoints
-from .method import TERRAINS, Method, as_given, of_preset
+from .method import TERRAINS, Method, as_given, of_metres, of_preset
 from .pipeline import Pipeline
 from .stages import shared_pipeline
 from .stages.accept import NearSurface, OnlyKeyPoints
@@ -45,22 +45,30 @@ _REACH_BUILDINGS = 1.2
 _LEAST_REACH = 100.0
 # The preset with the rules of another program.
 CLASSIC = "lidar360"
-_CLASSIC_TOLERANCE = 0.18  # metres above the final surface in level terrain
 
 
 class Preset(NamedTuple):
-    """Values for the parameters that are left empty."""
+    """Values for the parameters that are left empty; lengths in metres."""
 
     max_building_size: float
-    iteration_angle: float
+    iteration_angle: float  # degrees
     iteration_distance: float
     cell_size: float = 1.0
-    ground_tolerance: float | None = None  # None: from the points
+
+
+class Lidar360Preset(NamedTuple):
+    """The values of LiDAR360, named as those of `Preset`, and its ground tolerance."""
+
+    max_building_size: float = 20.0
+    iteration_angle: float = 8.0
+    iteration_distance: float = 1.4
+    cell_size: float = 1.0
+    ground_tolerance: float = 0.18  # above the final surface in level terrain
 
 
 # Cells of 0.5 m lose 2 to 11 % of generated berms of 0.6 to 1.8 m, cells of 1 m 35 to 43 %
 # (`python -m benchmarks.site`).
-PRESETS = {
+PRESETS: dict[str, Preset | Lidar360Preset] = {
     "automatic": Preset(150.0, 15.0, 1.4),
     "flat": Preset(48.0, 8.0, 0.7),
     "hilly": Preset(30.0, 15.0, 1.4),
@@ -68,7 +76,7 @@ PRESETS = {
     "town": Preset(60.0, 12.0, 1.4),
     "city": Preset(120.0, 12.0, 1.4),
     "site": Preset(25.0, 15.0, 1.4, 0.5),
-    CLASSIC: Preset(20.0, 8.0, 1.4, ground_tolerance=_CLASSIC_TOLERANCE),
+    CLASSIC: Lidar360Preset(),
 }
 
 
@@ -120,39 +128,28 @@ class TinDensification(ParameterSet):
         " trees also more plants. Empty: from the preset.",
         advanced=True,
     )
-    reduce_angle_edge: float | None = parameter(
+    reduce_angle_edge: float | None = of_metres(
         5.0,
-        label="Reduce iteration angle when edges are shorter than",
-        unit="m",
-        minimum=0.0,
-        maximum=100.0,
-        advanced=True,
-        help="In triangles whose longest edge is shorter than this, the iteration angle is reduced"
+        "Reduce iteration angle when edges are shorter than",
+        100.0,
+        "In triangles whose longest edge is shorter than this, the iteration angle is reduced"
         " in proportion. So the TIN does not climb low vegetation step by step. Empty: the angle"
         " is never reduced.",
-        kind="number",
         optional=True,
     )
-    stop_edge: float | None = parameter(
+    stop_edge: float | None = of_metres(
         2.0,
-        label="Stop triangulation when edges are shorter than",
-        unit="m",
-        minimum=0.0,
-        maximum=100.0,
-        advanced=True,
-        help="Triangles whose longest edge is shorter than this take no more points. Empty: all"
+        "Stop triangulation when edges are shorter than",
+        100.0,
+        "Triangles whose longest edge is shorter than this take no more points. Empty: all"
         " triangles can take points.",
-        kind="number",
         optional=True,
     )
-    noise_distance: float = parameter(
+    noise_distance: float = of_metres(
         0.3,
-        label="Noise distance",
-        unit="m",
-        minimum=0.0,
-        maximum=5.0,
-        advanced=True,
-        help="A point that is closer to its triangle than this joins the TIN whatever its angle."
+        "Noise distance",
+        5.0,
+        "A point that is closer to its triangle than this joins the TIN whatever its angle."
         " Near a corner, noise alone makes a large angle.",
     )
     ground_tolerance: float | None = of_preset(
@@ -163,24 +160,18 @@ class TinDensification(ParameterSet):
         " noisy.",
         advanced=True,
     )
-    ground_tolerance_below: float = parameter(
+    ground_tolerance_below: float = of_metres(
         0.6,
-        label="Ground tolerance below",
-        unit="m",
-        minimum=0.0,
-        maximum=10.0,
-        advanced=True,
-        help="In level terrain, points down to this depth below the final surface are ground. The"
+        "Ground tolerance below",
+        10.0,
+        "In level terrain, points down to this depth below the final surface are ground. The"
         " surface goes through the lowest points, but is smoother than they are.",
     )
-    slope_tolerance: float = parameter(
+    slope_tolerance: float = of_metres(
         1.4,
-        label="Ground tolerance on slopes",
-        unit="m",
-        minimum=0.0,
-        maximum=10.0,
-        advanced=True,
-        help="Added to both ground tolerances on a slope of 45 degrees. On gentler slopes less is"
+        "Ground tolerance on slopes",
+        10.0,
+        "Added to both ground tolerances on a slope of 45 degrees. On gentler slopes less is"
         " added, in proportion.",
     )
     only_key_points: bool = parameter(
@@ -222,18 +213,20 @@ def pipeline(points: Points, parameters: TinDensification, progress: Progress) -
     # 2). In rounds, each triangle takes the candidate nearest to it if distance and angle allow it
     # (Axelsson 2000, section 3).
     resolved = parameters.resolve(points)
-    values = as_given(PRESETS[parameters.preset], resolved)
     if parameters.preset == CLASSIC:
         if resolved != parameters:
-            progress.choice(_in_words(resolved, ""))
-        return _classic(resolved, values)
+            progress.choice(_in_words(resolved))
+        return _classic(resolved, as_given(Lidar360Preset(), resolved))
+    values = as_given(PRESETS[parameters.preset], resolved)
     apart = spacing(points, _LEAST_SPACING)
     if resolved != parameters or apart <= DENSE_SPACING:
-        progress.choice(_in_words(resolved, _of_spacing(apart)))
+        progress.choice(_in_words(resolved, apart))
     size, cell = values.max_building_size, max(values.cell_size, apart)
     is_site = parameters.preset == "site"
-    # A distance that the user gave is used in every cloud, and so is that of a site.
-    knows_images = parameters.iteration_distance is None and not is_site
+    densification = _densification(resolved, values)
+    if is_site or parameters.iteration_distance is not None:
+        # A distance that the user gave, and that of a site, is used in clouds from images as well.
+        densification = dataclasses.replace(densification, in_images=None)
     return shared_pipeline(
         LowestPoints(cell, grids=2),
         size,
@@ -245,19 +238,18 @@ def pipeline(points: Points, parameters: TinDensification, progress: Progress) -
         is_site=is_site,
         regions=GentleRegions(gentle_border=GentleBorder(small=_SMALL)),
         surface=(
-            # Low plants are level with each other, but hardly where it is wholly open.
+            # Where nearly all points lie near the lowest ones, there is no low plant to look for.
             *(() if is_site else (Shrubs(most_open=0.95),)),
             KnownGround(),
-            _densification(resolved, values, knows_images),
+            densification,
         ),
         accepted=_key_points(resolved),
     )
 
 
-def _classic(resolved: TinDensification, values: Preset) -> Pipeline:
+def _classic(resolved: TinDensification, values: Lidar360Preset) -> Pipeline:
     """Return the rules of LiDAR360's preset."""
     size, pits = values.max_building_size, NarrowPits(corroborated=None, under_canopy=None)
-    tolerance = values.ground_tolerance
     objects = RaisedObjects(
         size,
         heights=(5.0, 4.5, 2.0),
@@ -284,9 +276,9 @@ def _classic(resolved: TinDensification, values: Preset) -> Pipeline:
             ),
             Seeds(objects_wait=True),
             KnownGround(),
-            dataclasses.replace(_densification(resolved, values, False), level=None),
+            dataclasses.replace(_densification(resolved, values), in_images=None, level=None),
             PlainSurface(
-                _CLASSIC_TOLERANCE if tolerance is None else tolerance,
+                values.ground_tolerance,
                 resolved.slope_tolerance,
                 resolved.ground_tolerance_below,
             ),
@@ -296,16 +288,11 @@ def _classic(resolved: TinDensification, values: Preset) -> Pipeline:
     )
 
 
-def _densification(resolved: TinDensification, values: Preset, knows_images: bool) -> Densification:
-    rule = Densification(
-        values.iteration_angle,
-        values.iteration_distance,
-        resolved.max_terrain_angle,
-        resolved.reduce_angle_edge,
-        resolved.stop_edge,
-        resolved.noise_distance,
-    )
-    return rule if knows_images else dataclasses.replace(rule, in_images=None)
+def _densification(resolved: TinDensification, values: Preset | Lidar360Preset) -> Densification:
+    return Densification(
+        values.iteration_angle, values.iteration_distance, resolved.max_terrain_angle,
+        resolved.reduce_angle_edge, resolved.stop_edge, resolved.noise_distance,
+    )  # fmt: skip
 
 
 def _key_points(resolved: TinDensification) -> tuple[OnlyKeyPoints, ...]:
@@ -313,36 +300,21 @@ def _key_points(resolved: TinDensification) -> tuple[OnlyKeyPoints, ...]:
     if not resolved.only_key_points:
         return ()
     closeness = ModelKeyPoints(
-        resolved.key_point_tolerance_above,
-        resolved.key_point_tolerance_below,
+        resolved.key_point_tolerance_above, resolved.key_point_tolerance_below,
         resolved.key_point_grid_size,
-    )
+    )  # fmt: skip
     return (OnlyKeyPoints(closeness),)
 
 
-def _in_words(parameters: TinDensification, of_spacing: str) -> str:
-    names = (
-        "preset", "max_building_size", "iteration_angle", "iteration_distance", "cell_size",
-    )  # fmt: skip
-    return f"TIN densification: {parameters.in_words(*names)}{of_spacing}."
-
-
-def _of_spacing(apart: float) -> str:
-    """Return what follows from the spacing of the points, for the log."""
-    if apart > DENSE_SPACING:
-        return ""
-    return f", a tolerance that follows the noise, as points lie {apart:.2g} m apart"
+def _in_words(parameters: TinDensification, apart: float = math.inf) -> str:
+    """Return the chosen values for the log, and what follows if points are close together."""
+    words = parameters.in_words("preset", *Preset._fields)
+    if apart <= DENSE_SPACING:
+        words += f", a tolerance that follows the noise, as points lie {apart:.2g} m apart"
+    return f"TIN densification: {words}."
 
 
 METHOD = Method(
-    "tin-densification",
-    "TIN densification",
-    TinDensification,
-    pipeline,
-    reach,
-    largest_object,
-    "max_building_size",
-    CLASSIC,
-    PRESETS,
-    takes_known_ground=True,
-)
+    "tin-densification", "TIN densification", TinDensification, pipeline, reach, largest_object,
+    "max_building_size", CLASSIC, PRESETS, takes_known_ground=True,
+)  # fmt: skip

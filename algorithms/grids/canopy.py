@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from .morphology import median_of_nine
+from .morphology import median_of_nine, sum_of_nine
 
 # Pits lie deeper than this below the mean of their eight neighbours, in metres.
 _PIT = 2.0
@@ -25,9 +25,7 @@ def without_pits(canopy: np.ndarray) -> np.ndarray:
     # result depends on `PIT_PASSES` cells round each cell.
     filled = np.nan_to_num(canopy, nan=0.0)
     for _ in range(PIT_PASSES):
-        padded = np.pad(filled, 1, mode="edge")
-        across = padded[:, :-2] + padded[:, 1:-1] + padded[:, 2:]
-        of_nine = across[:-2] + across[1:-1] + across[2:]
-        is_pit = (of_nine - filled) / 8.0 - filled > _PIT
+        of_eight = sum_of_nine(np.pad(filled, 1, mode="edge")) - filled
+        is_pit = of_eight / 8.0 - filled > _PIT
         filled = np.where(is_pit, np.maximum(median_of_nine(filled), filled), filled)
     return np.where(np.isnan(canopy), canopy, filled)

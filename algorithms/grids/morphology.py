@@ -93,6 +93,19 @@ def within_square(pick: np.ufunc, grid: np.ndarray, reach: int) -> np.ndarray:
     return result
 
 
+def closing_by_square(grid: np.ndarray, reach: int) -> np.ndarray:
+    """Return the closing of a grid by a square, which raises pits that are at most `2 * reach`
+    cells wide.
+    """
+    return within_square(np.minimum, within_square(np.maximum, grid, reach), reach)
+
+
+def sum_of_nine(padded: np.ndarray) -> np.ndarray:
+    """Return the sum of the 3 x 3 cells round each cell but those at the border."""
+    columns = padded[:, :-2] + padded[:, 1:-1] + padded[:, 2:]
+    return columns[:-2] + columns[1:-1] + columns[2:]
+
+
 def median_of_nine(grid: np.ndarray) -> np.ndarray:
     """Return the median of the 3 x 3 cells round each, without NaN and continued with the border
     cells, as `scipy.ndimage.median_filter` does.

@@ -90,7 +90,7 @@ def read_content(source: Source, band: int = 1, window: Window | None = None) ->
         return source.read(band, window)
     read = partial(library(_read_with_gdal, _read_with_rasterio, "Reading"), str(source), band)
     _check_local(str(source))
-    content: Content = read(window)
+    content = read(window)
     suspect = suspects(content.values, content.valid)
     if suspect.any():
         key = _key(source, band)

@@ -4,16 +4,17 @@ from __future__ import annotations
 
 import importlib.util
 from pathlib import Path
-from typing import Any, Callable
+from types import ModuleType
+from typing import Callable, TypeVar
 
 from ..core.errors import BareEarthError
 from ..core.temporary import shown
 
+_Function = TypeVar("_Function", bound=Callable[..., object])
 
-def library(
-    by_gdal: Callable[..., Any], by_rasterio: Callable[..., Any], task: str
-) -> Callable[..., Any]:
-    """Return the function for the installed library: GDAL first, for QGIS."""
+
+def library(by_gdal: _Function, by_rasterio: _Function, task: str) -> _Function:
+    """Return the function for the installed library: that for GDAL if both are, as in QGIS."""
     for name in library_name():
         return by_gdal if name == "osgeo" else by_rasterio
     raise BareEarthError(f"{task} a raster needs rasterio: pip install rasterio.")
@@ -26,11 +27,11 @@ def library_name() -> list[str]:
 
 
 class GdalErrors:
-    """Collects the error messages of GDAL, in each of its error modes; `what` it does for them,
-    "read" or "write".
+    """Collects the error messages of GDAL, whether or not it is set to raise exceptions; the task,
+    "read" or "write", is a word of the errors.
     """
 
-    def __init__(self, gdal: Any, task: str) -> None:
+    def __init__(self, gdal: ModuleType, task: str) -> None:
         self._gdal, self._task = gdal, task
         self._texts: list[str] = []
 

@@ -7,7 +7,7 @@ import math
 import os
 import shutil
 from pathlib import Path
-from typing import Any, Callable, Iterable, NamedTuple
+from typing import TYPE_CHECKING, Callable, Iterable, NamedTuple
 
 import numpy as np
 
@@ -20,6 +20,9 @@ from ..crs.system import unit_name, unit_symbol
 from ..crs.wkt import of_map, read_wkt, with_unit_of_heights
 from .geotiff import Raster, RasterGrid
 from .libraries import GdalErrors, library
+
+if TYPE_CHECKING:
+    from rasterio.crs import CRS
 
 # Most cells of a raster that is collected in memory, which is faster than in a file.
 _MOST_IN_MEMORY = 64_000_000
@@ -118,7 +121,7 @@ def check_raster(target: Path) -> None:
     _writer()
 
 
-def _writer() -> Callable[..., None]:
+def _writer() -> Callable[[Path, Rows, RasterGrid | Raster, Band, Progress], None]:
     """Return the function that writes with the installed library."""
     return library(_write_with_gdal, _write_with_rasterio, "Writing")
 
@@ -214,7 +217,7 @@ def _write_with_rasterio(
 
     crs = _crs_of(about.wkt, progress)
     waiting = _waiting_file(path, rows)
-    profile: dict[str, Any] = dict(
+    profile: dict[str, object] = dict(
         driver="GTiff", width=rows.shape[1], height=rows.shape[0], count=rows.bands,
         dtype=rows.kind, nodata=about.nodata, crs=crs,
         transform=Affine.from_gdal(*grid.geotransform), **_WAITING,
@@ -248,8 +251,8 @@ def _write_with_rasterio(
             remove(waiting)
 
 
-def _crs_of(wkt: str | None, progress: Progress) -> Any:
-    """Return the CRS as a rasterio object, or None."""
+def _crs_of(wkt: str | None, progress: Progress) -> CRS | None:
+    """Return the CRS as rasterio knows it; None, with a warning, if rasterio does not."""
     import rasterio
     from rasterio.crs import CRS
     from rasterio.errors import CRSError

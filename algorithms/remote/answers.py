@@ -15,7 +15,7 @@ import json
 import re
 import time
 import zlib
-from typing import Any, NamedTuple, Protocol
+from typing import Any, Dict, NamedTuple, Protocol
 
 from ..core.errors import BareEarthError
 from .addresses import host_of, shown
@@ -32,6 +32,8 @@ _COSTS = {b"{": 64, b"[": 72, b":": 150, b",": 40}
 _MOST_MEMORY = 600_000_000  # bytes for a whole document
 # Parameters of the query that say that an address is signed: of Azure, Amazon and Google.
 _SIGNED = re.compile(r"[?&](sig|X-Amz-Signature|Signature|X-Goog-Signature)=", re.IGNORECASE)
+# The names and values of a document in JSON, which may be of any kind until they are checked.
+Document = Dict[str, Any]
 
 
 class Headers(Protocol):
@@ -158,15 +160,18 @@ def unpacked(address: str, data: bytes, most: int) -> bytes:
     return found
 
 
-def parsed(text: bytes) -> Any:
-    """Return what a document in JSON says; ValueError if it is none, or would fill the memory."""
+def parsed(text: bytes) -> Document:
+    """Return an object of JSON; ValueError if a text is none, or would need too much memory."""
     size = sum(text.count(mark) * cost for mark, cost in _COSTS.items())
     if size > _MOST_MEMORY:
         raise ValueError("it would need too much memory")
     try:
-        return json.loads(text.decode("utf-8-sig"))
+        found = json.loads(text.decode("utf-8-sig"))
     except RecursionError as error:
         raise ValueError("it is nested too deeply") from error
+    if not isinstance(found, dict):
+        raise ValueError("it is no object")
+    return found
 
 
 def check_status(address: str, status: int, headers: Headers) -> None:

@@ -17,7 +17,7 @@ import re
 import threading
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import Iterable
 
 import numpy as np
 
@@ -37,7 +37,7 @@ from ..las.writing import write_changed
 from ..survey.area import Area
 from ..survey.shapes import Place
 from .addresses import beside, is_address, name_of, shown
-from .answers import Missing, parsed, too_large
+from .answers import Document, Missing, parsed, too_large
 from .copc import EVERYWHERE, area_of, levels_of
 from .ept_joining import joined
 from .ept_records import Schema
@@ -112,7 +112,7 @@ class EptPart:
         self.request_count = len(self._waiting)
         self.size = _USUAL * sum(self.tiles[key] for key in self._waiting)
 
-    def _document(self, name: str, most: int) -> tuple[bytes, Any]:
+    def _document(self, name: str, most: int) -> tuple[bytes, Document]:
         """Return the text of a document and what it says; one that makes no sense is asked for once
         more.
         """
@@ -123,12 +123,12 @@ class EptPart:
         except ValueError as error:
             raise self._no_ept(f"{name} cannot be read") from error
 
-    def _parsed(self, name: str, most: int) -> tuple[bytes, Any]:
+    def _parsed(self, name: str, most: int) -> tuple[bytes, Document]:
         text = self._whole(name, most)
         with self._parsing:
             return text, parsed(text)
 
-    def _read(self, about: dict[str, Any]) -> None:
+    def _read(self, about: Document) -> None:
         """Read and check what is used of the description."""
         try:
             self._cube = tuple(map(float, about["bounds"]))
@@ -146,7 +146,7 @@ class EptPart:
                 " Use 'pdal translate'."
             )
 
-    def _numbers(self, bounds: Any) -> Box:
+    def _numbers(self, bounds: Iterable[float]) -> Box:
         """Return smallest x and y, largest x and y of bounds in the description."""
         try:
             west, south, _, east, north, _ = map(float, bounds)
@@ -320,7 +320,7 @@ def _name(key: Key) -> str:
     return "-".join(map(str, key))
 
 
-def _wkt_of(srs: Any) -> str | None:
+def _wkt_of(srs: object) -> str | None:
     """Return the CRS of a description as well-known text, if it says one."""
     about, text = (srs, srs.get("wkt")) if isinstance(srs, dict) else ({}, None)
     if isinstance(text, str) and text.strip():

@@ -8,7 +8,7 @@ Entwine Point Tile specification 1.1, "schema" and "dataType"; names of dimensio
 from __future__ import annotations
 
 import struct
-from typing import Any, Sequence
+from typing import Iterable, Sequence
 
 import numpy as np
 
@@ -17,6 +17,7 @@ from ..las import header as fields
 from ..las.extrabytes import EXTRA_BYTES
 from ..las.lasfile import RECORD_LENGTHS, new_vlr
 from ..las.records import as_points
+from .answers import Document
 
 _KINDS = {"unsigned": "u", "signed": "i", "float": "f", "floating": "f"}
 # Types of extra bytes in LAS, by kind and size.
@@ -45,7 +46,9 @@ _STEP_DEGREES = 1e-8
 class Schema:
     """The dimensions of the points of a data set."""
 
-    def __init__(self, described: Any, cube: Sequence[float], is_geographic: bool) -> None:
+    def __init__(
+        self, described: Iterable[Document], cube: Sequence[float], is_geographic: bool
+    ) -> None:
         """Read the description, which raises ValueError, TypeError or KeyError if it makes no
         sense; what is no integer of 32 bits becomes one in the cube of the octree.
         """

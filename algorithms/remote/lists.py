@@ -14,7 +14,7 @@ from __future__ import annotations
 import contextlib
 from functools import partial
 from pathlib import Path
-from typing import Any, Iterator, NamedTuple
+from typing import Iterator, NamedTuple
 
 from ..core.errors import BareEarthError
 from ..core.points import Box
@@ -26,7 +26,7 @@ from ..las.sources import open_source
 from ..survey.area import Area
 from ..survey.shapes import Place, Shapes
 from .addresses import checked, ends_with, is_address, name_of, origin_of, referred, shown
-from .answers import parsed, too_large
+from .answers import Document, parsed, too_large
 from .copc import area_of
 from .ept import DESCRIPTION
 from .transfers import Transfers
@@ -162,9 +162,11 @@ class _Reader:
                 " of the list, such as the answer to a search for the area."
             )
 
-    def _clouds(self, base: str, content: Any) -> Iterator[Cloud]:
+    def _clouds(self, base: str, content: object) -> Iterator[Cloud]:
         """Yield the point clouds of an item in a document."""
-        assets = content.get("assets") if isinstance(content, dict) else None
+        if not isinstance(content, dict):
+            return
+        assets = content.get("assets")
         known = [
             asset
             for asset in (assets.values() if isinstance(assets, dict) else ())
@@ -187,7 +189,7 @@ class _Reader:
             for place in self._followed(base, asset["href"]):
                 yield Cloud(place, _crs_of(about), _box_of(about.get("proj:bbox")))
 
-    def _links(self, base: str, content: dict[str, Any], relation: str) -> list[str]:
+    def _links(self, base: str, content: Document, relation: str) -> list[str]:
         return [
             place
             for link in _list_of(content, "links")
@@ -208,11 +210,11 @@ class _Reader:
         else:
             self.strange.add(origin_of(place))
 
-    def _read(self, address: str) -> dict[str, Any]:
+    def _read(self, address: str) -> Document:
         """Return a document, while the caller can cancel."""
         return self._transfers.one(lambda: self._parsed(address, _MOST_LIST))
 
-    def _parsed(self, address: str, most: int) -> dict[str, Any]:
+    def _parsed(self, address: str, most: int) -> Document:
         if is_address(address):
             text = self._transfers.read_whole(address, most)
         else:
@@ -221,12 +223,9 @@ class _Reader:
             if len(text) > most:
                 raise too_large(address, f"has more than {most:,} bytes")
         try:
-            content = parsed(text)
+            return parsed(text)
         except ValueError as error:
             raise self._no_list(address) from error
-        if not isinstance(content, dict):
-            raise self._no_list(address)
-        return content
 
     def _no_list(self, address: str) -> BareEarthError:
         return BareEarthError(
@@ -235,12 +234,12 @@ class _Reader:
         )
 
 
-def _list_of(content: dict[str, Any], name: str) -> list[Any]:
+def _list_of(content: Document, name: str) -> list[object]:
     found = content.get(name)
     return found if isinstance(found, list) else []
 
 
-def _crs_of(about: dict[str, Any]) -> str | None:
+def _crs_of(about: Document) -> str | None:
     """Return the CRS that an item states."""
     for name in ("proj:wkt2", "proj:code"):
         if isinstance(about.get(name), str) and about[name]:

@@ -6,12 +6,17 @@ Its `cat_file` gives a short answer without an error, so lengths and versions ar
 from __future__ import annotations
 
 import threading
-from typing import Any
+from typing import TYPE_CHECKING, Callable, TypeVar
 from urllib.parse import urlsplit
 
 from ..core.errors import BareEarthError
 from .addresses import shown
 from .answers import Missing, State, Unfinished, changed, too_large
+
+if TYPE_CHECKING:
+    from fsspec import AbstractFileSystem
+
+_Result = TypeVar("_Result")
 
 
 class StoreReader:
@@ -27,7 +32,11 @@ class StoreReader:
         """Return bytes of an object, of the known version of it."""
         before = self._state(address) if known is None else known
         stop = min(stop, before.size) if known is None else stop
-        data: bytes = self._ask(address, "cat_file", start=start, end=stop)
+
+        def bytes_of(store: AbstractFileSystem) -> bytes:
+            return store.cat_file(address, start=start, end=stop)
+
+        data = self._ask(address, bytes_of)
         # Stores tell no version with the bytes: the object is the same if it was before and after.
         if self._state(address) != before:
             raise changed(address)
@@ -55,21 +64,22 @@ class StoreReader:
         """End nothing: fsspec has limits of its own."""
 
     def _state(self, address: str) -> State:
-        found = self._ask(address, "info", refresh=True)
+        def info_of(store: AbstractFileSystem) -> dict[str, object]:
+            return store.info(address, refresh=True)
+
+        found = self._ask(address, info_of)
         etag = found.get("ETag") or found.get("etag") or ""
         modified = found.get("LastModified") or found.get("last_modified") or found.get("updated")
-        return State(int(found["size"]), str(etag), str(modified or ""))
+        return State(int(str(found["size"])), str(etag), str(modified or ""))
 
-    def _ask(self, address: str, name: str, **options: Any) -> Any:
-        """Call a function of the file system of a store, and tell its errors."""
+    def _ask(self, address: str, work: Callable[[AbstractFileSystem], _Result]) -> _Result:
+        """Return the result of work on the file system of a store, and raise its errors as ours."""
         with self._lock:
             self.requests += 1
         try:
             import fsspec
 
-            return getattr(fsspec.filesystem(urlsplit(address).scheme.lower()), name)(
-                address, **options
-            )
+            return work(fsspec.filesystem(urlsplit(address).scheme.lower()))
         except ImportError as error:
             raise BareEarthError(
                 f"{shown(address)} needs fsspec ({error}): pip install fsspec and what it names for"

@@ -280,7 +280,7 @@ def test_coordinates_of_other_types_are_read(server, tmp_path, kind):
     [
         ("ept-hierarchy/0-0-0-0.json", b'{"0-0-0-0": 200000000}', "a tile of 200,000,000 points"),
         ("ept-hierarchy/0-0-0-0.json", b" " * (1 << 24) + b"{}", "too much for what it should be"),
-        ("ept.json", b"[" + b"[]," * (1 << 20) + b"0]", "description cannot be read"),
+        ("ept.json", b"[" + b"[]," * (1 << 20) + b"0]", "ept.json cannot be read"),
     ],
 )
 def test_sizes_are_checked_before_they_are_read(server, tmp_path, name, text, words):

@@ -20,7 +20,7 @@ from ...core.points import Points
 from ...core.progress import Progress
 from ...grids.cells import Cells
 from ...grids.inpaint import inpaint
-from ...grids.morphology import within_square
+from ...grids.morphology import sum_of_nine, within_square
 from ...tin.triangulation import Tin, lost_triangles
 from ..pipeline import PointRule, Stage
 from ..state import State
@@ -75,7 +75,8 @@ class Densification(PointRule):
             waiting = waiting[~state.grids[0].woods.ravel()[cells.index[waiting]]]
         heights = cells.minimum(points.z, state.seeds)
         surface, holding = inpaint(heights, first=cells.first), np.isfinite(heights)
-        may_join = _counts_round(holding) <= _MOST_VERTICES_ROUND
+        vertices_round = sum_of_nine(np.pad(holding.astype(np.int8), 1))
+        may_join = vertices_round <= _MOST_VERTICES_ROUND
         if self.level is not None:
             above = with_lower(heights, cells, points, waiting) - surface
             may_join &= _has_level_neighbour(above, self.level) | (
@@ -153,13 +154,6 @@ class _Survey(NamedTuple):
             found = values.take(np.where(of_ring, 0, corners))
             found[of_ring] = ring[corners[of_ring] - self.points.count]
             yield found
-
-
-def _counts_round(mask: np.ndarray) -> np.ndarray:
-    """Return how many of the 3 x 3 cells round each cell a mask holds."""
-    padded = np.pad(mask.astype(np.int8), 1)
-    rows = padded[:-2] + padded[1:-1] + padded[2:]
-    return rows[:, :-2] + rows[:, 1:-1] + rows[:, 2:]
 
 
 def _has_level_neighbour(above: np.ndarray, level: float) -> np.ndarray:

@@ -43,6 +43,11 @@ class HeightSteps:
         self._inside = np.pad(inside, self._step)
         self._heights = np.pad(surface, self._step, constant_values=np.nan).ravel()
 
+    @property
+    def filled(self) -> np.ndarray:
+        """The heights with gaps filled; float32, shape (rows, columns)."""
+        return self._unframed(self._heights.reshape(self._inside.shape))
+
     def regions(self, threshold: float) -> Regions:
         """Return the regions between cells that are higher than a neighbour by more than a
         threshold in metres, the rise of the terrain and its usual unevenness.

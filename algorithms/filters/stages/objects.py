@@ -247,15 +247,15 @@ class Rims(GridRule):
 
     def apply(self, grid: GridState, progress: Progress = SILENT) -> None:
         """Raise the cells of low objects."""
-        ground, inside = grid.heights.where(~grid.objects), grid.surveyed
-        stands_out = inside
-        if self.width is not None:
-            cut, step = in_steps(ground.filled(_RELAXATIONS).astype(np.float32))
-            cut -= opening(cut, max(self.width / 2.0 / ground.size, 1.0))
-            # As unsigned numbers, differences do not overflow.
-            stands_out = cut.view(np.uint16) * step > self.height
+        ground = grid.heights.where(~grid.objects)
+        stands_out = grid.surveyed
         for done in range(self.passes):
-            steps = HeightSteps(ground, inside)
+            steps = HeightSteps(ground, grid.surveyed)
+            if self.width is not None and done == 0:
+                cut, step = in_steps(steps.filled)
+                cut -= opening(cut, max(self.width / 2.0 / ground.size, 1.0))
+                # As unsigned numbers, differences do not overflow.
+                stands_out = cut.view(np.uint16) * step > self.height
             regions, rims = steps.regions_and_rims(self.height, self.roughness)
             rims &= stands_out
             if self.objects:

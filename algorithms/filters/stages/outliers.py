@@ -20,7 +20,7 @@ from ...core.threads import over_parts
 from ...grids.cells import Cells, spacing
 from ...grids.gradient import steepness
 from ...grids.inpaint import inpaint
-from ...grids.morphology import median_of_nine, within_square
+from ...grids.morphology import closing_by_square, median_of_nine
 from ..height_grid import HeightGrid
 from ..lowest_planes import LowestOfCells
 from ..pipeline import GridRule, PointRule, Rule, Stage
@@ -266,8 +266,7 @@ class DenseOutliers(PointRule):
 def depth_of_pits(grid: HeightGrid) -> np.ndarray:
     """Return how many metres a closing by 3 x 3 cells raises each cell; 0 where there is none."""
     filled = grid.filled()
-    closed = within_square(np.minimum, within_square(np.maximum, filled, 1), 1)
-    return np.where(grid.known, closed - filled, 0.0)
+    return np.where(grid.known, closing_by_square(filled, 1) - filled, 0.0)
 
 
 def even_cells(grid: HeightGrid) -> np.ndarray:

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ...grids.cells import are_inside
-from ...grids.morphology import within_square
+from ...grids.morphology import closing_by_square
 from ..pipeline import Rule
 from ..state import GridState
 from .regions import bends
@@ -218,7 +218,7 @@ class LowBanks(Rule):
         number = np.zeros(regions.shape, dtype=np.int32)
         number.ravel()[regions.cells] = regions.number + 1
         filled, reach = regions.filled, max(round(self.width / regions.size / 2.0), 1)
-        closed = within_square(np.minimum, within_square(np.maximum, filled, reach), reach)
+        closed = closing_by_square(filled, reach)
         into, border = np.zeros((2, len(regions.area)))
         row, column = np.divmod(regions.cells, regions.shape[1])
         for up, right in ((1, 0), (-1, 0), (0, 1), (0, -1)):

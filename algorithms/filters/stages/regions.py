@@ -94,12 +94,30 @@ class Regions:
         steepness: float = 0.0,
         height: float = 0.0,
         wall: float = 0.0,
+        sign: int = 1,
     ) -> np.ndarray:
-        """Return the cells of regions of at most some width (the shorter side) in metres, of whose
-        known and whole border such shares drop, by a mean of `height` metres or more, and of
-        `steepness` times the width; of wide ones those whose sides are walls by a share.
+        """Return the cells of regions of at most a width (shorter side) in metres whose border
+        drops (`sign` 1) or rises (-1).
         """
-        return self._bounded(max_size, 1, share, whole_share, steepness, height, wall)
+        # More than `whole_share` of the whole border, and at least `share` of that to known cells,
+        # must drop, on average by at least `height` metres and `steepness` times the width. Of the
+        # sides of wide regions at least the share `wall` must be walls.
+        fits = self.width <= max_size
+        fits[0] = False
+        found = np.zeros(len(fits), dtype=bool)
+        # Cells of regions that were found count as unknown in the next round. So it finds regions
+        # whose border they were part of, such as a roof below a tower.
+        for _ in range(_ROUNDS):
+            drops, known, pairs, mean_height = self._border.drops(found, sign)
+            new = fits & ~found & (drops > 0)
+            new &= mean_height >= np.maximum(steepness * self.width, height)
+            new &= (drops >= share * known) & (drops > whole_share * pairs)
+            if wall > 0.0 and (self.width[new] > _WIDE).any():
+                new &= ~(self._walls < wall)
+            if not new.any():
+                break
+            found |= new
+        return found[self.number]
 
     def without_ramps(self, found: np.ndarray, width: float) -> np.ndarray:
         """Return the cells of those regions whose border is nowhere level over `width` metres in
@@ -127,35 +145,7 @@ class Regions:
 
     def sunken(self, max_size: float) -> np.ndarray:
         """Return the cells of pits: regions whose border is a rise nearly all round."""
-        return self._bounded(max_size, -1, _PIT_SHARE, _PIT_SHARE)
-
-    def _bounded(
-        self,
-        max_size: float,
-        sign: int,
-        share: float,
-        least_share: float,
-        least_steepness: float = 0.0,
-        least_height: float = 0.0,
-        least_wall: float = 0.0,
-    ) -> np.ndarray:
-        """Return the cells of regions bounded by drops (1) or rises (-1)."""
-        # What one round finds is unknown in the next, which finds what it hid: a roof below a
-        # tower.
-        fits = self.width <= max_size
-        fits[0] = False
-        found = np.zeros(len(fits), dtype=bool)
-        for _ in range(_ROUNDS):
-            drops, known, pairs, height = self._border.drops(found, sign)
-            new = fits & ~found & (drops > 0)
-            new &= height >= np.maximum(least_steepness * self.width, least_height)
-            new &= (drops >= share * known) & (drops > least_share * pairs)
-            if least_wall > 0.0 and (self.width[new] > _WIDE).any():
-                new &= ~(self._walls < least_wall)
-            if not new.any():
-                break
-            found |= new
-        return found[self.number]
+        return self.bounded(max_size, _PIT_SHARE, _PIT_SHARE, sign=-1)
 
     @cached_property
     def _walls(self) -> np.ndarray:

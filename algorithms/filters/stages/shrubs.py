@@ -12,7 +12,7 @@ from ...core.progress import SILENT
 from ...core.threads import over_parts
 from ...grids.cells import Cells, in_order
 from ...grids.gradient import steepness
-from ...grids.morphology import within_square
+from ...grids.morphology import sum_of_nine, within_square
 from ..pipeline import PointRule, Stage
 from ..side_planes import LEAST, Sides
 from ..state import State
@@ -139,7 +139,5 @@ class Shrubs(PointRule):
 def _have_neighbours(seeds: Points, reach: float) -> bool:
     """Return whether there are somewhere as many seeds within the reach as a plane needs."""
     # Sparse land has none, and a grid of blocks over it would cost more than all other rules.
-    cells = Cells.over(seeds, reach)
-    counts = np.pad(cells.counts, 1)
-    rows = counts[:-2] + counts[1:-1] + counts[2:]
-    return bool((rows[:, :-2] + rows[:, 1:-1] + rows[:, 2:]).max() >= LEAST)
+    counts = Cells.over(seeds, reach).counts
+    return bool(sum_of_nine(np.pad(counts, 1)).max() >= LEAST)
