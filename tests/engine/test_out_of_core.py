@@ -12,6 +12,7 @@ from fulldisks import TELLS, become_full
 from matrices import covering
 from realdata import real
 from runs import FAST, CancelAt, Heard, environment
+from surveys import write_points
 
 import bare_earth
 from bare_earth import BareEarthError, Cancelled
@@ -59,21 +60,19 @@ def small_nodes(monkeypatch):
 def write(path, count=9000, east=EAST, stray=(), seed=3, shape=(160.0, 90.0), first=0.0):
     """Write a strip with houses and trees, its points in no order, of several classes."""
     random = np.random.default_rng(seed)
-    las = laspy.LasData(laspy.LasHeader(point_format=6, version="1.4"))
-    las.header.scales, las.header.offsets = (0.01,) * 3, (east, NORTH, 0.0)
     x, y = (random.uniform(0, side, count) for side in shape)
     z = 0.06 * x + 2 * np.sin(y / 25) + random.normal(0, 0.03, count)
     z[(x % 45 < 12) & (y % 35 < 10)] += 6.0
     z[random.choice(count, 8, replace=False)] -= 15.0
     x[0] = first
     x[1 : 1 + len(stray)] = stray
-    las.x, las.y, las.z = x + east, y + NORTH, z + 100
-    las.classification = random.choice([1, 2, 5, 7, 9], count, p=[0.5, 0.3, 0.1, 0.05, 0.05])
-    las.number_of_returns = random.integers(1, 4, count)
-    las.return_number = random.integers(1, np.array(las.number_of_returns) + 1)
-    las.withheld = random.random(count) < 0.01
-    las.write(str(path))
-    return path
+    classes = random.choice([1, 2, 5, 7, 9], count, p=[0.5, 0.3, 0.1, 0.05, 0.05])
+    returns = random.integers(1, 4, count)
+    return write_points(
+        path, x, y, z + 100, classes, offset=(east, NORTH, 0.0), scale=0.01,
+        number_of_returns=returns, return_number=random.integers(1, returns + 1),
+        withheld=random.random(count) < 0.01,
+    )  # fmt: skip
 
 
 def run(source, folder, method, resources, rasters=(), **options):

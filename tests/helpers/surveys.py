@@ -66,12 +66,18 @@ def write_classified(source, target, classes, progress=Progress()):
     write_changed(source, target, Edits(classification=classes), progress)
 
 
-def write_points(path, x, y, z, classes=1, *, offset=ORIGIN, crs=None, **columns):
+def write_points(
+    path, x, y, z, classes=1, *, offset=ORIGIN, scale=0.001, point_format=6, version="1.4",
+    crs=None, wkt=None, **columns,
+):  # fmt: skip
     """Write points, in metres from the offset; each is the only return of its pulse."""
-    header = laspy.LasHeader(point_format=6, version="1.4")
-    header.scales, header.offsets = (0.001,) * 3, offset
+    header = laspy.LasHeader(point_format=point_format, version=version)
+    header.scales, header.offsets = (scale,) * 3, offset
     if crs:
         header.add_crs(pytest.importorskip("pyproj").CRS(crs))
+    if wkt:
+        header.vlrs.append(laspy.vlrs.known.WktCoordinateSystemVlr(wkt))
+        header.global_encoding.wkt = True
     las = laspy.LasData(header)
     las.x, las.y, las.z = (values + start for values, start in zip((x, y, z), offset))
     las.classification[:] = classes

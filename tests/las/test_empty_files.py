@@ -7,6 +7,7 @@ import laspy
 import numpy as np
 import pytest
 from runs import FAST_WORDS
+from surveys import write_points
 
 import bare_earth
 from bare_earth import BareEarthError
@@ -16,14 +17,8 @@ from bare_earth.algorithms.las.opening import NoPoints, open_las
 
 def write(path, count, west=0.0):
     random = np.random.default_rng(1)
-    header = laspy.LasHeader(point_format=6, version="1.4")
-    header.scales, header.offsets = (0.01,) * 3, (5e5, 5.6e6, 0)
-    las = laspy.LasData(header)
     x, y = random.uniform(0, 40, (2, count))
-    las.x, las.y, las.z = 5e5 + west + x, 5.6e6 + y, 50 + 0.1 * x
-    las.return_number[:], las.number_of_returns[:], las.classification[:] = 1, 1, 2
-    las.write(str(path))
-    return path
+    return write_points(path, west + x, y, 50 + 0.1 * x, 2, scale=0.01)
 
 
 @pytest.fixture(scope="module")

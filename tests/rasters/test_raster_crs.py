@@ -3,6 +3,7 @@
 import laspy
 import numpy as np
 import pytest
+from surveys import write_points
 
 import bare_earth
 from bare_earth.algorithms.cli import main
@@ -23,15 +24,8 @@ UNITS = {"dtm": "metre", "slope": "degree", "hillshade": None, "sky-view": None,
 
 def written(path, text):
     random = np.random.default_rng(1)
-    header = laspy.LasHeader(point_format=6, version="1.4")
-    header.scales, header.offsets, header.global_encoding.wkt = (0.01,) * 3, (5e5, 5.6e6, 0), True
-    header.vlrs.append(laspy.vlrs.known.WktCoordinateSystemVlr(text))
-    las = laspy.LasData(header)
     x, y = random.uniform(0, 30, (2, 3000))
-    las.x, las.y, las.z = 5e5 + x, 5.6e6 + y, 50 + 0.1 * x
-    las.return_number[:], las.number_of_returns[:], las.classification[:] = 1, 1, 2
-    las.write(str(path))
-    return path
+    return write_points(path, x, y, 50 + 0.1 * x, 2, wkt=text)
 
 
 @pytest.mark.parametrize("kind", ["DHHN2016", "ellipsoid", "three axes"])

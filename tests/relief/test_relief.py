@@ -9,6 +9,7 @@ import laspy
 import numpy as np
 import pytest
 from matrices import quick
+from surveys import write_points
 
 import bare_earth
 from bare_earth.algorithms.cli import main
@@ -270,13 +271,7 @@ def write(path, west=0.0, east=SIDE, unit=1.0):
     x, y = x.ravel(), y.ravel()
     z = 100.0 + 0.05 * x + 0.6 * (np.abs(x - y) < 3.0) - 0.8 * (np.hypot(x - 45, y - 15) < 4.0)
     inside = (x >= west) & (x < east)
-    header = laspy.LasHeader(version="1.4", point_format=6)
-    header.scales, header.offsets = [0.001] * 3, [0.0] * 3
-    cloud = laspy.LasData(header)
-    cloud.x, cloud.y, cloud.z = (axis[inside] / unit for axis in (x, y, z))
-    cloud.classification = np.full(len(cloud.x), 2, dtype=np.uint8)
-    cloud.write(path)
-    return path
+    return write_points(path, *(axis[inside] / unit for axis in (x, y, z)), 2, offset=(0, 0, 0))
 
 
 def option(name):
@@ -339,11 +334,7 @@ def test_a_high_tolerance_keeps_narrow_walls(tmp_path):
     x, y = draw.uniform(0, 100, (2, 80_000))
     wall = (np.abs(y - 50) < 0.5) & (x > 20) & (x < 80)
     z = 100.0 + 0.1 * x + 1.5 * np.sin(y / 25) + 0.7 * wall + draw.normal(0, 0.02, x.size)
-    header = laspy.LasHeader(version="1.4", point_format=6)
-    header.scales = [0.001] * 3
-    cloud = laspy.LasData(header)
-    cloud.x, cloud.y, cloud.z = x, y, z
-    cloud.write(tmp_path / "in.laz")
+    write_points(tmp_path / "in.laz", x, y, z, offset=(0, 0, 0))
     kept = []
     for tolerance in ("0.18", "0.8"):
         words = [str(tmp_path / "in.laz"), str(tmp_path / "out.laz")]

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from realdata import real
 from runs import FAST, Heard
+from surveys import write_points
 
 import bare_earth
 from bare_earth import BareEarthError
@@ -25,19 +26,10 @@ CORNERS = np.array([(HUT[0], HUT[1]), (HUT[2], HUT[1]), (HUT[2], HUT[3]), (HUT[0
 def write(path, east=0.0, count=12_000, size=120.0):
     """Write level ground at 50 m, with a hut of 5 m that counts as ground."""
     random = np.random.default_rng(1)
-    header = laspy.LasHeader(point_format=6, version="1.4")
-    header.scales, header.offsets = (0.001,) * 3, (500_000, 5_600_000, 0)
-    header.add_crs(pyproj.CRS(UTM))
-    las = laspy.LasData(header)
-    las.x = random.uniform(0, size, count) + 500_000 + east
-    las.y = random.uniform(0, size, count) + 5_600_000
-    x, y = np.asarray(las.x), np.asarray(las.y)
-    is_hut = (x > HUT[0] + 1) & (x < HUT[2] - 1) & (y > HUT[1] + 1) & (y < HUT[3] - 1)
-    las.z = np.where(is_hut, 55.0, 50.0)
-    las.classification[:] = 2
-    las.return_number[:] = las.number_of_returns[:] = 1
-    las.write(str(path))
-    return path
+    x, y = random.uniform(0, size, (2, count)) + np.reshape((east, 0.0), (2, 1))
+    is_hut = (x > 41.0) & (x < 79.0) & (y > 41.0) & (y < 79.0)
+    offset = (500_000.0, 5_600_000.0, 0.0)
+    return write_points(path, x, y, np.where(is_hut, 55.0, 50.0), 2, offset=offset, crs=UTM)
 
 
 @pytest.fixture

@@ -6,6 +6,7 @@ import laspy
 import numpy as np
 import pytest
 from runs import CancelAt, Heard
+from surveys import write_points
 
 from bare_earth import BareEarthError, Cancelled, assess, water_classes
 from bare_earth.algorithms.cli import main
@@ -24,16 +25,12 @@ def survey(seed=1):
 
 def write(path, which, classes, scale=0.01, offset=(0.0, 0.0), point_format=6, times=True):
     x, y, z, _, gps = survey()
-    header = laspy.LasHeader(point_format=point_format, version="1.4")
-    header.scales, header.offsets = (scale,) * 3, (*offset, 0.0)
-    las = laspy.LasData(header)
-    las.x, las.y, las.z = x[which] + 1000, y[which] + 2000, z[which] + 50
-    las.classification = classes[which]
-    if times:
-        las.gps_time = gps[which]
-    las.return_number[:] = las.number_of_returns[:] = 1
-    las.write(str(path))
-    return path
+    east, north = offset
+    return write_points(
+        path, x[which] + 1000 - east, y[which] + 2000 - north, z[which] + 50, classes[which],
+        offset=(*offset, 0.0), scale=scale, point_format=point_format,
+        **({"gps_time": gps[which]} if times else {}),
+    )  # fmt: skip
 
 
 X, Y, _, TRUTH, _ = survey()

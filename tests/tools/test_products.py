@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from matrices import covering
 from runs import CancelAt
-from surveys import cut, strip
+from surveys import cut, strip, write_points
 from surveys import write as write_strip
 
 import bare_earth
@@ -30,18 +30,12 @@ def scene(path, point_format=6, version="1.4", wkt=None, offset=0.0, count=30):
     x, y = (axis.ravel() * 1.0 for axis in np.meshgrid(np.arange(count), np.arange(count)))
     plane = 100 + 0.1 * x + 0.2 * y
     roof = (x >= 10) & (x < 20) & (y >= 10) & (y < 20)
-    header = laspy.LasHeader(point_format=point_format, version=version)
-    header.scales, header.offsets = (0.001,) * 3, (500_000.0, 5_700_000.0, offset)
-    if wkt:
-        header.vlrs.append(laspy.vlrs.known.WktCoordinateSystemVlr(wkt))
-        header.global_encoding.wkt = True
-    las = laspy.LasData(header)
-    las.x, las.y = np.append(x, 15.0) + 500_000, np.append(y, 15.0) + 5_700_000
-    las.z = np.append(np.where(roof, 120.0, plane), 300.0)
-    las.classification[:] = np.append(np.where(roof, 6, 2), 7)
-    las.return_number[:] = las.number_of_returns[:] = 1
-    las.intensity[:] = np.arange(len(las))
-    las.write(str(path))
+    z = np.append(np.where(roof, 120.0, plane), 300.0) - offset
+    write_points(
+        path, np.append(x, 15.0), np.append(y, 15.0), z, np.append(np.where(roof, 6, 2), 7),
+        offset=(500_000.0, 5_700_000.0, offset), point_format=point_format, version=version,
+        wkt=wkt, intensity=np.arange(len(z)),
+    )  # fmt: skip
     return np.append(plane, 100 + 1.5 + 3.0), np.append(roof, False)
 
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from quality_by_hand import quality_by_hand
 from runs import CancelAt
-from surveys import heights_of
+from surveys import heights_of, write_points
 
 import bare_earth
 from bare_earth import BareEarthError, Cancelled
@@ -31,19 +31,8 @@ def grid(step=0.5):
     return x.ravel(), y.ravel()
 
 
-def write(path, x, y, z, crs=True, version="1.4", point_format=6, **columns):
-    header = laspy.LasHeader(point_format=point_format, version=version)
-    header.scales, header.offsets = (0.001,) * 3, (EAST, NORTH, 0)
-    if crs:
-        header.add_crs(pyproj.CRS("EPSG:25832"))
-    las = laspy.LasData(header)
-    las.x, las.y, las.z = x + EAST, y + NORTH, z
-    las.return_number[:], las.number_of_returns[:] = 1, 1
-    las.classification[:] = 2
-    for name, values in columns.items():
-        las[name] = values
-    las.write(str(path))
-    return path
+def write(path, x, y, z, crs="EPSG:25832", **columns):
+    return write_points(path, x, y, z, 2, offset=(EAST, NORTH, 0), crs=crs, **columns)
 
 
 def measured(*paths, **options):
@@ -441,7 +430,7 @@ def test_class_0_left_over_old_formats_and_no_crs(tmp_path):
     lines = states(measured(path, specification="lbs-ql2"))
     assert lines["Class 0 (never classified)"] == "fail"
     assert lines["Files"] == lines["CRS"] == "pass"
-    old = write(tmp_path / "b.laz", x, y, terrain(x, y), False, "1.2", 1)
+    old = write(tmp_path / "b.laz", x, y, terrain(x, y), None, version="1.2", point_format=1)
     lines = states(measured(old, specification="lbs-ql2"))
     assert lines["Class 0 (never classified)"] == "pass"
     assert lines["Files"] == lines["CRS"] == "fail"
@@ -534,14 +523,9 @@ def test_a_survey_without_ground(tmp_path):
 
 def test_feet_are_converted(tmp_path):
     x, y = grid(0.5)
-    header = laspy.LasHeader(point_format=6, version="1.4")
-    header.scales, header.offsets = (0.001,) * 3, (EAST, NORTH, 0)
-    header.add_crs(pyproj.CRS("EPSG:2230+6360"))
-    las, foot = laspy.LasData(header), 1200 / 3937
-    las.x, las.y, las.z = EAST + x / foot, NORTH + y / foot, terrain(x, y) / foot
-    las.return_number[:], las.number_of_returns[:], las.classification[:] = 1, 1, 2
-    las.write(str(tmp_path / "in.laz"))
-    found = measured(tmp_path / "in.laz", folder=tmp_path / "rasters")
+    foot, path = 1200 / 3937, tmp_path / "in.laz"
+    write(path, x / foot, y / foot, terrain(x, y) / foot, crs="EPSG:2230+6360")
+    found = measured(path, folder=tmp_path / "rasters")
     assert found.pulse_density == pytest.approx(4.0, rel=0.02)
     heights = heights_of(tmp_path / "rasters" / "surface_height.tif")
     assert np.nanmax(heights) == pytest.approx(terrain(x, y).max() / foot, abs=0.01)

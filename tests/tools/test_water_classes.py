@@ -52,19 +52,13 @@ def polygons(unit=1.0, origin=(EAST, NORTH)):
 def write(path, count=12_000, epsg=UTM, unit=1.0, west=0.0, east=SIDE, seed=1, classes=None):
     """Write points on land that slopes by 10 %: mostly ground, and some of every other class."""
     random = np.random.default_rng(seed)
-    header = laspy.LasHeader(point_format=6, version="1.4")
-    header.scales, header.offsets = (0.001,) * 3, (EAST, NORTH, 0.0)
-    header.add_crs(pyproj.CRS(epsg))
-    las = laspy.LasData(header)
     x, y = random.uniform(west, east, count), random.uniform(0, SIDE, count)
-    las.x, las.y, las.z = x / unit + EAST, y / unit + NORTH, (100.0 + 0.1 * x) / unit
     if classes is None:
         classes = np.where(random.random(count) < 0.7, 2, random.choice(256, count))
-    las.classification[:] = classes
-    las.return_number[:] = las.number_of_returns[:] = 1
-    las.withheld[:] = random.random(count) < 0.05
-    las.write(str(path))
-    return path
+    return write_points(
+        path, x / unit, y / unit, (100.0 + 0.1 * x) / unit, classes,
+        offset=(EAST, NORTH, 0.0), crs=epsg, withheld=random.random(count) < 0.05,
+    )  # fmt: skip
 
 
 def metres(las, unit=1.0):
