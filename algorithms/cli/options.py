@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import argparse
-from typing import Any, Callable, NamedTuple, Sequence
+from functools import partial
+from typing import Callable, NamedTuple, Sequence
 
 from ..core.errors import BareEarthError, UsageError
 from ..core.parameters import Declaration, ParameterSet, shown_value
@@ -49,25 +50,25 @@ def chosen(options: argparse.Namespace) -> list[ParameterSet]:
     return [_from_options(group, options) for group in options.declared]
 
 
-def _add_options(parser: Any, declared: type[ParameterSet]) -> None:
+def _add_options(
+    parser: argparse.ArgumentParser | argparse._ArgumentGroup, declared: type[ParameterSet]
+) -> None:
     for parameter in declared.declarations():
-        flag = "--" + parameter.name.replace("_", "-")
-        words = {"dest": parameter.name, "default": parameter.default, "help": _help_of(parameter)}
+        add = partial(
+            parser.add_argument, "--" + parameter.name.replace("_", "-"), dest=parameter.name,
+            default=parameter.default, help=_help_of(parameter),
+        )  # fmt: skip
+        choices = list(parameter.choices)
         if parameter.kind == "boolean":
-            parser.add_argument(flag, action=argparse.BooleanOptionalAction, **words)
+            add(action=argparse.BooleanOptionalAction)
         elif parameter.kind == "choice":
-            parser.add_argument(flag, choices=list(parameter.choices), **words)
+            add(choices=choices)
         elif parameter.kind == "choices":
-            names = {
-                "choices": list(parameter.choices),
-                "metavar": parameter.name.upper().rstrip("S"),
-            }
-            parser.add_argument(flag, nargs="+", **names, **words)
+            add(nargs="+", choices=choices, metavar=parameter.name.upper().rstrip("S"))
         elif parameter.kind in ("numbers", "integers"):
-            parser.add_argument(flag, nargs="*", metavar=parameter.unit or "N", **words)
+            add(nargs="*", metavar=parameter.unit or "N")
         else:
-            unit = parameter.unit.replace(" ", "_")
-            parser.add_argument(flag, metavar=unit or "N", **words)
+            add(metavar=parameter.unit.replace(" ", "_") or "N")
 
 
 def _help_of(parameter: Declaration) -> str:

@@ -8,7 +8,7 @@ and, for archaeology, Stular, Eichert and Lozic (2021), Remote Sensing 13(16), 3
 from __future__ import annotations
 
 from types import MappingProxyType
-from typing import Any, Mapping, NamedTuple
+from typing import Mapping, NamedTuple
 
 from ..tools.quality.specifications import SPECIFICATIONS
 
@@ -21,7 +21,7 @@ _LARGEST_CELL = 5.0
 # The cell sizes that specifications state, and values of the parameters of tools. Beside a shore,
 # the ground up to the nominal spacing of pulses is ignored; that of IGN has no class for it.
 _CELL_SIZES = {"lbs-ql1": 0.5, "lbs-ql2": 1.0, "linz": 1.0, "ign": 0.5}
-STATED: Mapping[str, Mapping[str, Any]] = {
+STATED: Mapping[str, Mapping[str, object]] = {
     "none": {},
     "lbs-ql1": {"shore_distance": SPECIFICATIONS["lbs-ql1"].spacing},
     "lbs-ql2": {"shore_distance": SPECIFICATIONS["lbs-ql2"].spacing},
@@ -29,7 +29,7 @@ STATED: Mapping[str, Mapping[str, Any]] = {
     "ign": {"shore_distance": 0.0, "above_ground": "ign"},
 }
 # Noise and bridges get their classes in any case.
-_ALWAYS: Mapping[str, Any] = {
+_ALWAYS: Mapping[str, object] = {
     "low_noise_class": True, "high_noise_class": True, "bridge_class": 17, "mark_as": "flag",
 }  # fmt: skip
 # Classes of what stands on the ground.
@@ -45,7 +45,7 @@ class Delivery(NamedTuple):
     pictures: tuple[str, ...]  # the rasters that its page shows; the first is the largest
     finest: float  # metres: smallest cell that is chosen by the density of ground points
     # Values of the parameters of its tools, by their names
-    values: Mapping[str, Any] = MappingProxyType({})
+    values: Mapping[str, object] = MappingProxyType({})
     above_ground: bool = False  # whether the points above the ground get classes
     heights: bool = False  # whether each point gets its height above ground
     # Whether water is found, flattened and delivered, and ground in it gets classes
@@ -69,7 +69,7 @@ class Delivery(NamedTuple):
         by_density = (cell for least, cell in _CELLS if density >= least)
         return max(next(by_density, _LARGEST_CELL), self.finest)
 
-    def values_with(self, specification: str) -> dict[str, Any]:
+    def values_with(self, specification: str) -> dict[str, object]:
         """Return the values of parameters that a user leaves at their defaults."""
         stated, asked = STATED[specification], SPECIFICATIONS[specification]
         classes = {*asked.needed, *(asked.classes or ())}

@@ -176,7 +176,7 @@ class DeliveryFolder:
         return [name for name in named if here in (self.path / name).resolve().parents]
 
 
-def _write_record(path: Path, record: dict[str, Any]) -> None:
+def _write_record(path: Path, record: dict[str, object]) -> None:
     with replacing(path) as temporary:
         temporary.write_text(json.dumps(record, indent=1) + "\n", encoding="utf-8")
 

@@ -48,7 +48,7 @@ class Row(NamedTuple):
     outputs: Mapping[str, str] = {}  # names of files, by the names of the tool's outputs
     tells: str = ""  # the field of the summary for what the tool returns
     told: Callable[[Any], Any] = lambda done: done  # the value of this field
-    values: Mapping[str, Any] = {}  # of parameters, by their names, whatever the user gave
+    values: Mapping[str, object] = {}  # of parameters, by their names, whatever the user gave
     kept: Sequence[str] | None = None  # names of the rasters in its folder; None for all
     work: Callable[..., Any] = lambda job, row, progress: job.run(row, progress)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from datetime import date
 from pathlib import Path
-from typing import Any, Iterator, Mapping, Sequence
+from typing import Iterator, Mapping, Sequence
 from urllib.parse import quote
 
 from ..classes.selection import Selection
@@ -257,6 +257,6 @@ def _changed(given: ParameterSet) -> dict[str, str]:
     return values
 
 
-def _shown(value: Any) -> str:
+def _shown(value: str | float | None) -> str:
     words = {None: "none", True: "on", False: "off"}
     return words[value] if value is None or isinstance(value, bool) else shown_value(value)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Iterable, Mapping, TypeVar
+from typing import Iterable, Mapping, TypeVar
 
 from ..classes.ground_classes import GroundClasses
 from ..classes.selection import Selection
@@ -131,7 +131,7 @@ class DeliveryWater(Water):
 class Settings:
     """The parameters of a delivery: what the user gave, and values of the table for the rest."""
 
-    def __init__(self, sets: Iterable[ParameterSet], values: Mapping[str, Any]) -> None:
+    def __init__(self, sets: Iterable[ParameterSet], values: Mapping[str, object]) -> None:
         self.values = dict(values)  # of parameters that the user left at their defaults, by name
         named = (values.parameters if isinstance(values, TileMethod) else values for values in sets)
         self.sets: list[ParameterSet] = [*named, METHODS[DEFAULT_METHOD].parameters()]
@@ -148,7 +148,7 @@ class Settings:
 
     def set_of(self, kind: type[GivenSet]) -> GivenSet:
         """Return parameters with the values of the table where the user left the defaults."""
-        values: dict[str, Any] = {}
+        values: dict[str, object] = {}
         given = self.given(kind)
         for declared in given.declarations():
             value, name = getattr(given, declared.name), declared.name

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import asdict, dataclass, field, is_dataclass
-from typing import Any
 
 from ..tools.check.hold_out import AGREEMENT
 from ..tools.check.results import Check
@@ -85,12 +84,12 @@ class DeliverySummary:
         """Return the figures as lines of text."""
         return [f"{title:<11} {value}" for title, value in self.rows()]
 
-    def as_dict(self) -> dict[str, Any]:
+    def as_dict(self) -> dict[str, object]:
         """Return all figures as plain values."""
         return {name: _plain(value) for name, value in vars(self).items()}
 
 
-def _plain(value: Any) -> Any:
+def _plain(value: object) -> object:
     if hasattr(value, "as_dict"):
         return value.as_dict()
     return asdict(value) if is_dataclass(value) and not isinstance(value, type) else value

@@ -28,12 +28,13 @@ from ..tools.rasters.rows import RASTERS
 from ..tools.rasters.tool import CONSTRAINTS, TARGET, maps
 from .deliveries import DEFAULT_DELIVERY, DELIVERIES
 from .parameters import DeliveryChoice, DeliveryOptions, DeliveryTerrain, DeliveryWater
+from .summary import DeliverySummary
 
 # The parameters of deliveries alone.
 OF_DELIVERIES = DeliveryOptions, DeliveryWater, Accuracy
 
 
-def _deliver(*given: Any) -> Any:
+def _deliver(*given: Any) -> DeliverySummary:
     from .running import deliver
 
     return deliver(*given)

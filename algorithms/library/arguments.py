@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import inspect
 from dataclasses import dataclass, replace
-from typing import Any, NamedTuple
+from typing import Iterable, NamedTuple
 
 from ..survey.feature_files import FORMATS as WRITTEN_FORMATS
 from ..survey.vector_files import FORMATS
@@ -81,23 +81,23 @@ class Argument:
     name: str  # of the keyword; with hyphens, that of the option
     kind: Kind
     help: str
-    default: Any = None
+    default: object = None
     choices: tuple[str, ...] = ()  # of words
 
     @classmethod
-    def of(cls, name: str, kind: str, help: str, default: Any = None) -> Argument:
+    def of(cls, name: str, kind: str, help: str, default: object = None) -> Argument:
         """Return an argument of one of the `KINDS`."""
         return cls(name, KINDS[kind], with_note(help, KINDS[kind].note), default)
 
     @classmethod
-    def choice(cls, name: str, choices: Any, default: str, help: str) -> Argument:
+    def choice(cls, name: str, choices: Iterable[str], default: str, help: str) -> Argument:
         """Return an argument that is one of some words."""
         words = ", ".join(f'"{choice}"' for choice in choices)
         kind = Kind(_LITERAL.format(words), f"{{{words}}}")
         return cls(name, kind, help, default, tuple(choices))
 
 
-def path(name: str, help: str, default: Any = None) -> Argument:
+def path(name: str, help: str, default: object = None) -> Argument:
     """Return an argument that is a path."""
     return Argument.of(name, "path", help, default)
 

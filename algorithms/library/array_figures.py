@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from types import SimpleNamespace
-from typing import Any, Iterator
+from typing import Any, Iterator, Sequence
 
 import numpy as np
 
 from ..classes.ground_classes import GroundClasses, GroundCounts
 from ..core.errors import BareEarthError
+from ..core.parameters import ParameterSet
 from ..core.progress import Progress
 from ..core.threads import available_cpus, may_use
 from ..las.cloud import PointCloud
@@ -51,13 +52,13 @@ class _CloudGround(SurveyGround):
             progress(where.stop / self._cloud.count)
 
 
-def _ground_points(values: SimpleNamespace, sets: list[Any]) -> _CloudGround:
+def _ground_points(values: SimpleNamespace, sets: Sequence[ParameterSet]) -> _CloudGround:
     """Return the ground points that the arguments of a function give."""
     cloud = cloud_with_ground(values, GroundClasses.among(sets), progress_of(values.progress))
     return _CloudGround(cloud, GroundClasses.among(sets))
 
 
-def _check(values: SimpleNamespace, sets: list[Any]) -> Check:
+def _check(values: SimpleNamespace, sets: Sequence[ParameterSet]) -> Check:
     """Return the errors at checkpoints, or at points that are held out."""
     progress, ground = progress_of(values.progress), GroundClasses.among(sets)
     with may_use(available_cpus()):
@@ -93,7 +94,7 @@ def of_check() -> Function:
     )  # fmt: skip
 
 
-def _residuals(values: SimpleNamespace, sets: list[Any]) -> Features:
+def _residuals(values: SimpleNamespace, sets: Sequence[ParameterSet]) -> Features:
     """Return checkpoints with their errors."""
     points, options = _ground_points(values, sets), CheckOptions.among(sets)
     checkpoints = checkpoints_of(values)
@@ -121,7 +122,7 @@ def of_residuals() -> Function:
     )
 
 
-def _water(values: SimpleNamespace, sets: list[Any]) -> dict[str, Features]:
+def _water(values: SimpleNamespace, sets: Sequence[ParameterSet]) -> dict[str, Features]:
     """Return water and its breaklines by their names."""
     classes, progress = GroundClasses.among(sets), progress_of(values.progress)
     with may_use(available_cpus()):

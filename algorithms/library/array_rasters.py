@@ -5,8 +5,9 @@ from __future__ import annotations
 import math
 from pathlib import Path
 from types import SimpleNamespace
-from typing import Any
+from typing import Sequence
 
+from ..core.parameters import ParameterSet
 from ..rasters.content import NO_CELLS
 from ..rasters.geotiff import read_raster
 from ..tools import file_tool
@@ -32,7 +33,7 @@ _RASTER = (
 )
 
 
-def _contours(values: SimpleNamespace, sets: list[Any]) -> Features:
+def _contours(values: SimpleNamespace, sets: Sequence[ParameterSet]) -> Features:
     """Return the contour lines of a raster."""
     raster = read_raster(heights_of(values.raster), window=NO_CELLS)
     _, layer, features = contours_of(raster, Contours.among(sets), progress_of(values.progress))
@@ -54,7 +55,7 @@ def of_contours() -> Function:
     )
 
 
-def _relief(values: SimpleNamespace, sets: list[Any]) -> dict[str, Raster]:
+def _relief(values: SimpleNamespace, sets: Sequence[ParameterSet]) -> dict[str, Raster]:
     """Return pictures of the relief by their kinds."""
     names, made = {kind: KINDS[kind] for kind in ReliefKinds.among(sets).kinds}, Collected()
     paths = {name: Path(name) for name in names.values()}
@@ -80,7 +81,7 @@ def of_relief() -> Function:
     )
 
 
-def _bare(values: SimpleNamespace, sets: list[Any]) -> Raster:
+def _bare(values: SimpleNamespace, sets: Sequence[ParameterSet]) -> Raster:
     """Return a surface without objects."""
     made, name = Collected(), Path("without_objects")
     remove_objects_file(

@@ -27,9 +27,11 @@ from ..engine.memory import Resources
 from ..engine.options import TileInput
 from ..engine.step import Step
 from ..las.cloud import PointCloud
+from ..las.lasfile import LasFile
 from ..tools import map_tool, point_tool
 from ..tools.heights import HeightOutput, HeightsOfPoints
 from ..tools.key_points import KeyPointMark
+from ..tools.rasters.block import BlockRasters
 from ..tools.rasters.output import write_rasters
 from ..tools.rasters.parameters import SurfaceModel, TerrainModel
 from ..tools.rasters.rows import RASTERS
@@ -40,7 +42,7 @@ from .array_arguments import ATTRIBUTES, GROUND, LAST, POINTS
 from .array_figures import of_check, of_residuals, of_water
 from .array_rasters import of_contours, of_relief, of_removal
 from .blocks import are_blocks, blocks_of
-from .functions import PACKAGE, Function
+from .functions import PACKAGE, Function, Run
 from .given import (
     area_of,
     constraints_of,
@@ -82,7 +84,7 @@ def _found(
         return run.found(progress.part(0.95, 1.0))
 
 
-def _classes(values: SimpleNamespace, sets: list[Any]) -> Any:
+def _classes(values: SimpleNamespace, sets: Sequence[ParameterSet]) -> np.ndarray | None:
     """Return the class of each point."""
     progress = progress_of(values.progress)
     inputs = {"area": area_of(values), "corrections": corrections_of(values)}
@@ -91,9 +93,9 @@ def _classes(values: SimpleNamespace, sets: list[Any]) -> Any:
     return _found(cloud, steps, Resources.among(sets).now(), progress).classification
 
 
-def _ground_of(values: SimpleNamespace, sets: list[Any]) -> np.ndarray:
+def _ground_of(values: SimpleNamespace, sets: Sequence[ParameterSet]) -> np.ndarray:
     ground = GroundClasses.of_selection(Selection.among(sets))
-    return np.isin(_classes(values, sets), ground.ground_classes)
+    return np.isin(np.asarray(_classes(values, sets)), ground.ground_classes)
 
 
 def _area_of(command: str) -> tuple[Argument, ...]:
@@ -102,9 +104,7 @@ def _area_of(command: str) -> tuple[Argument, ...]:
     return arguments_of(area)
 
 
-def _of_classes(
-    name: str, about: str, gives: Kind, run: Callable[[SimpleNamespace, list[Any]], Any]
-) -> Function:
+def _of_classes(name: str, about: str, gives: Kind, run: Run) -> Function:
     """Return a function that finds the ground."""
     return Function(
         name,
@@ -122,12 +122,12 @@ def _of_classes(
 
 
 def _of_tool(
-    name: str, gives: Kind, value: Callable[[TileResult], Any], *fixed: ParameterSet
+    name: str, gives: Kind, value: Callable[[TileResult], np.ndarray | None], *fixed: ParameterSet
 ) -> Function:
     """Return the function of a tool for points; it does without the sets that are fixed."""
     tool = point_tool(tool_commands()[name])
 
-    def run(values: SimpleNamespace, sets: list[Any]) -> Any:
+    def run(values: SimpleNamespace, sets: Sequence[ParameterSet]) -> np.ndarray | None:
         progress = progress_of(values.progress)
         inputs = {declared.name: input_of(declared, values) for declared in tool.inputs}
         steps = tool.steps([*sets, *fixed], inputs, {})
@@ -147,7 +147,12 @@ class _RastersInMemory(MakeRasters):
     """Makes rasters without files."""
 
     def finish(
-        self, result: Any, frame: Frame, outputs: Outputs, progress: Progress, tiles: Any = None
+        self,
+        result: Sequence[BlockRasters],
+        frame: Frame,
+        outputs: Outputs,
+        progress: Progress,
+        tiles: Sequence[LasFile] | None = None,
     ) -> Any:
         """Return the rasters by their names."""
         collected = Collected()
@@ -155,7 +160,7 @@ class _RastersInMemory(MakeRasters):
         return collected.rasters
 
 
-def _terrain(values: SimpleNamespace, sets: list[Any]) -> dict[str, Raster]:
+def _terrain(values: SimpleNamespace, sets: Sequence[ParameterSet]) -> dict[str, Raster]:
     """Return rasters by their names."""
     progress = progress_of(values.progress)
     names = [values.rasters] if isinstance(values.rasters, str) else [*values.rasters]
@@ -222,7 +227,7 @@ def _of_terrain() -> Function:
 def _of_raster(name: str, about: str, gives: str) -> Function:
     """Return the function for one of the rasters, which needs few of the parameters."""
 
-    def run(values: SimpleNamespace, sets: list[Any]) -> Raster:
+    def run(values: SimpleNamespace, sets: Sequence[ParameterSet]) -> Raster:
         values = SimpleNamespace(**{**_NO_CONSTRAINTS, **vars(values)}, rasters=name)
         cells = TerrainModel(dtm_cell_size=ErrorCells.among(sets).dtm_cell_size, raster_nodata=None)
         return _terrain(values, [*sets, cells])[name]

@@ -6,11 +6,12 @@ import contextlib
 from dataclasses import dataclass
 from pathlib import Path
 from types import SimpleNamespace
-from typing import Any, Iterator, NamedTuple
+from typing import Iterator, NamedTuple, Sequence
 
 import numpy as np
 
 from ..core.errors import BareEarthError
+from ..core.parameters import ParameterSet
 from ..core.points import Box, box_round
 from ..core.progress import SILENT, Progress
 from ..core.threads import SharedThreads
@@ -24,6 +25,7 @@ from ..engine.options import TileInput
 from ..engine.step import placed
 from ..engine.visits import Work
 from ..las.cloud import PointCloud, survey_frame
+from ..las.lasfile import LasFile
 from ..las.opening import open_las
 from ..remote.addresses import shown
 from ..remote.cache import Surroundings, bring_here, cache_of, look
@@ -32,7 +34,7 @@ from ..survey.files import Inputs, open_survey
 from ..survey.shapes import Outside, Place
 from ..survey.window import may_touch, read_window
 from ..tools import map_tool
-from .given import corrections_of, progress_of
+from .given import GivenProgress, corrections_of, progress_of
 from .remote_points import is_remote, most_bytes, several, stated_crs
 
 # A task works in one thread, since others work at the same time.
@@ -102,7 +104,7 @@ class Block:
         west, south, east, north = self.extent
         return f"Block(x {west:.10g} to {east:.10g}, y {south:.10g} to {north:.10g})"
 
-    def __call__(self, progress: Any = None) -> dict[str, np.ndarray]:
+    def __call__(self, progress: GivenProgress = None) -> dict[str, np.ndarray]:
         """Return the points in the block, as a table that functions on arrays take.
 
         Parameters
@@ -157,19 +159,19 @@ class Block:
         return [files.get(number) for number in range(len(self.sources))]
 
 
-def are_blocks(points: Any) -> bool:
+def are_blocks(points: object) -> bool:
     """Return whether a user gives blocks in the place of points."""
     return isinstance(points, (list, tuple)) and any(isinstance(point, Block) for point in points)
 
 
-def blocks_of(values: SimpleNamespace, sets: list[Any]) -> list[Block]:
+def blocks_of(values: SimpleNamespace, sets: Sequence[ParameterSet]) -> list[Block]:
     """Return the blocks of files and addresses, from south to north."""
     progress = progress_of(values.progress)
     inputs = {"corrections": corrections_of(values)}
     (step,) = map_tool("classify").steps(sets, inputs, {})
     stated, cache = stated_wkt(values.crs), values.cache and cache_of(values.cache)
     given = several(values.sources)
-    remote = [source for source in given if is_remote(source)]
+    remote = [str(source) for source in given if is_remote(source)]
     local = [source for source in given if not is_remote(source)]
     found = list(_local(local, sets, stated, progress))
     for seen in look(remote, cache_of(cache), progress):
@@ -209,8 +211,11 @@ def blocks_of(values: SimpleNamespace, sets: list[Any]) -> list[Block]:
 
 
 def _local(
-    paths: list[Any], sets: list[Any], stated: str | None, progress: Progress
-) -> Iterator[tuple[str, Crs, Box, Any]]:
+    paths: Sequence[str | Path],
+    sets: Sequence[ParameterSet],
+    stated: str | None,
+    progress: Progress,
+) -> Iterator[tuple[str, Crs, Box, LasFile | None]]:
     """Yield path, CRS, extent and header of each file; all must be readable."""
     if not paths:
         return

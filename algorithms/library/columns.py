@@ -39,14 +39,14 @@ def refuse_beside(values: SimpleNamespace, owner: str, names: Iterable[str]) -> 
             raise BareEarthError(f"{owner} its own {name}: leave the argument {name} out.")
 
 
-def is_record(points: Any) -> bool:
+def is_record(points: object) -> bool:
     """Return whether a user gives a `laspy.LasData`, or points of one with scales and offsets."""
     return hasattr(points, "point_format") and (
         hasattr(points, "header") or hasattr(points, "scales")
     )
 
 
-def columns_of(values: SimpleNamespace) -> dict[str, Any]:
+def columns_of(values: SimpleNamespace) -> dict[str, object]:
     """Return the columns of arrays or of a table, by the fields of a cloud; refuse the integers of
     files, which are no coordinates.
     """
@@ -66,7 +66,7 @@ def columns_of(values: SimpleNamespace) -> dict[str, Any]:
     return columns
 
 
-def _columns_of(values: SimpleNamespace) -> dict[str, Any]:
+def _columns_of(values: SimpleNamespace) -> dict[str, object]:
     """Return the columns of points by their fields, whatever holds them."""
     points = values.points
     if isinstance(points, (str, PathLike)) or hasattr(points, "chunk_iterator"):
@@ -99,7 +99,7 @@ def _columns_of(values: SimpleNamespace) -> dict[str, Any]:
     return columns
 
 
-def _known(points: Any, names: Iterable[Any]) -> dict[str, Any]:
+def _known(points: Any, names: Iterable[object]) -> dict[str, object]:
     """Return the columns of a table that are used, by the fields of a cloud."""
     # Beside the integers X, Y and Z of laspy, x, y and z are coordinates: lower case comes last.
     known = {str(name).lower().replace("_", ""): name for name in sorted(names, key=str)}
@@ -112,7 +112,7 @@ def _known(points: Any, names: Iterable[Any]) -> dict[str, Any]:
     return found
 
 
-def _of_frame(values: SimpleNamespace) -> dict[str, Any]:
+def _of_frame(values: SimpleNamespace) -> dict[str, object]:
     """Return the columns of a GeoDataFrame or a GeoSeries, whose geometry counts before columns."""
     points, shapes = values.points, values.points.geometry
     refuse_beside(values, f"{FRAME} has", COORDINATES[1:])
@@ -125,7 +125,7 @@ def _of_frame(values: SimpleNamespace) -> dict[str, Any]:
     return columns
 
 
-def _separate(values: SimpleNamespace) -> dict[str, Any]:
+def _separate(values: SimpleNamespace) -> dict[str, object]:
     """Return x, y and z, given as three arrays or as one."""
     if values.y is None and values.z is None:
         xyz = array_of("points", values.points, (None, 3))
@@ -136,7 +136,7 @@ def _separate(values: SimpleNamespace) -> dict[str, Any]:
     return {"x": values.points, "y": values.y, "z": values.z}
 
 
-def array_of(name: str, given: Any, shape: tuple[int | None, ...]) -> np.ndarray:
+def array_of(name: str, given: object, shape: tuple[int | None, ...]) -> np.ndarray:
     """Return an argument as an array of numbers; None in a shape is any number."""
     if isinstance(given, np.ma.MaskedArray) and np.ma.is_masked(given):
         raise BareEarthError(f"{name} has masked values. Leave these points out.")

@@ -7,7 +7,7 @@ import re
 import textwrap
 from dataclasses import dataclass, field
 from types import SimpleNamespace
-from typing import Any, Callable, Collection, Iterable, Mapping
+from typing import Any, Callable, Collection, Iterable, Mapping, Sequence
 
 from ..core.parameters import Declaration, ParameterSet
 from ..crs.stated import crs_text
@@ -34,6 +34,10 @@ Cancelled
     If `progress` asked to stop; no output is incomplete.
 """
 
+# Does the work of a function: gets all values by their names, and instances of its sets, of which
+# the first is that of the ground filter if the function has one.
+Run = Callable[[SimpleNamespace, Sequence[ParameterSet]], object]
+
 
 @dataclass(frozen=True)
 class Described:
@@ -59,9 +63,7 @@ class Function:
     positional: tuple[Argument, ...]
     keywords: tuple[Argument, ...]
     sets: tuple[type[ParameterSet], ...]
-    # Given all values by their names, and instances of the sets, of which the first is that of the
-    # ground filter if the function has one.
-    run: Callable[[SimpleNamespace, list[ParameterSet]], Any]
+    run: Run
     result: type | None = None  # class of what it returns
     gives: Kind | None = None  # what it returns, if that is no class of ours
     has_method: bool = False  # whether it takes the parameters of a ground filter
@@ -123,7 +125,7 @@ class Function:
         parameters = [described.parameter for described in self.parameters]
         return inspect.Signature(parameters, return_annotation=self.returns)
 
-    def sets_of(self, values: dict[str, Any], named: Collection[str]) -> list[ParameterSet]:
+    def sets_of(self, values: Mapping[str, object], named: Collection[str]) -> list[ParameterSet]:
         """Return the sets of parameters, given all values and which of them the user named."""
         found = []
         if self.has_method:
@@ -149,7 +151,7 @@ class Function:
             found.append(declared(**given))
         return found
 
-    def work(self, values: SimpleNamespace, sets: list[ParameterSet]) -> Any:
+    def work(self, values: SimpleNamespace, sets: Sequence[ParameterSet]) -> Any:
         """Fetch the points that are given by addresses, and run."""
         with bring_points((*self.positional, *self.keywords), values, sets):
             return self.run(values, sets)
@@ -158,7 +160,7 @@ class Function:
         """Return the function, as one of a module."""
         signature, name = self.signature, self.name
 
-        def function(*positional: Any, **named: Any) -> Any:
+        def function(*positional: object, **named: object) -> object:
             for keyword in named:
                 if keyword not in signature.parameters:
                     nearest = _suggestion(keyword, signature.parameters)

@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
+from os import PathLike
 from pathlib import Path
 from types import SimpleNamespace
-from typing import TYPE_CHECKING, Any, Callable, Protocol
+from typing import TYPE_CHECKING, Any, Callable, Protocol, Union
 
 from ..classes.corrections import NO_CORRECTIONS, Corrections, read_corrections
 from ..core.errors import BareEarthError
 from ..core.progress import SILENT, Progress
-from ..survey.area import Area
+from ..survey.area import Area, Polygon
 from ..survey.files import Inputs
 
 if TYPE_CHECKING:
+    import numpy as np
+
+    from ..core.points import Box
     from ..engine.memory import Resources
     from ..engine.workers import Workers
     from ..rasters.cell_grid import RasterTarget
@@ -31,6 +35,10 @@ class Bar(Protocol):
 
     def update(self, n: float) -> object:
         """Add to what is done."""
+
+
+# What a user gives as `progress`.
+GivenProgress = Union[Progress, Bar, Callable[[float], object], None]
 
 
 class BarProgress(Progress):
@@ -64,26 +72,26 @@ def progress_of(given: Any) -> Progress:
     return CallingProgress(given)
 
 
-def path_of(given: Any) -> Path | None:
+def path_of(given: str | PathLike[str] | None) -> Path | None:
     """Return a path, or None where none is given."""
     return None if given is None else Path(given)
 
 
-def polygons_of(given: Any, may_be_empty: bool = False) -> Any:
+def polygons_of(given: object, may_be_empty: bool = False) -> tuple[Polygon, ...]:
     """Return polygons, given as a file, as geometries in memory, or as arrays of corners."""
     from ..survey.vector_files import shapes_of
 
     return shapes_of(given, "Polygon", may_be_empty)
 
 
-def lines_of(given: Any) -> Any:
+def lines_of(given: object) -> tuple[np.ndarray, ...]:
     """Return lines, whatever they are given as."""
     from ..survey.vector_files import shapes_of
 
     return shapes_of(given, "LineString")
 
 
-def extent_of(given: Any) -> tuple[float, ...] | None:
+def extent_of(given: Any) -> Box | None:
     """Return a rectangle, given as four numbers or as a geometry that lies in it."""
     if given is None:
         return None
@@ -101,7 +109,7 @@ def area_of(values: SimpleNamespace) -> Area | None:
     if values.extent is None and values.boundary is None:
         return None
     # An extent that is none is refused before the boundary is read.
-    box: Any = None if values.extent is None else tuple(map(float, values.extent))
+    box = extent_of(values.extent)
     if box is not None:
         Area(box)
     return Area(box, polygons_of(values.boundary))
@@ -115,7 +123,7 @@ def corrections_of(values: SimpleNamespace) -> Corrections:
     return read_corrections(given)
 
 
-def is_automatic(given: Any) -> bool:
+def is_automatic(given: object) -> bool:
     """Return whether polygons are to be found, and not read."""
     return isinstance(given, (str, Path)) and str(given).lower() == AUTOMATIC
 

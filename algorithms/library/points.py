@@ -6,7 +6,7 @@ import math
 from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
-from typing import Any, NamedTuple
+from typing import Any, Callable, Iterable, Mapping, NamedTuple, TypeVar
 
 import numpy as np
 
@@ -46,6 +46,8 @@ _LARGEST = 2**31 - 1
 _LONGEST_STEP = 1e-3
 _FIRST = 1000  # points that are looked at first, since most numbers of decimals fail there
 _POINTS_A_PART = 1 << 17  # that are worked on at a time
+
+_Found = TypeVar("_Found")
 
 
 def cloud_of(values: SimpleNamespace, progress: Progress = SILENT) -> PointCloud:
@@ -102,7 +104,7 @@ def cloud_with_ground(
     return replace(cloud, classification=np.where(mask, classes[0], others).astype(np.uint8))
 
 
-def _coordinates(name: str, given: Any) -> np.ndarray:
+def _coordinates(name: str, given: object) -> np.ndarray:
     """Return one coordinate of all points, with finite numbers."""
     array = array_of(name, given, (None,))
     if not len(array):
@@ -181,12 +183,12 @@ def _are_whole(array: np.ndarray, decimals: int, error: float) -> bool:
     )
 
 
-def _of_parts(array: np.ndarray, function: Any) -> list[Any]:
+def _of_parts(array: np.ndarray, function: Callable[[np.ndarray], _Found]) -> list[_Found]:
     """Return what a function finds for parts of an array."""
     return in_threads(lambda part: function(array[part]), parts_of(len(array), _POINTS_A_PART))
 
 
-def _attribute(name: str, given: Any, count: int) -> np.ndarray:
+def _attribute(name: str, given: object, count: int) -> np.ndarray:
     """Return a further column of the points, or a mask, as a new array."""
     array = array_of(name, given, (count,))
     if name not in _NUMBERS:
@@ -226,7 +228,13 @@ def _of_las(las: Any, stated: str | None, progress: Progress) -> PointCloud:
     return _made(arrays, scaled.scales, scaled.offsets, point_format, crs)
 
 
-def _made(arrays: Any, scales: Any, offsets: Any, point_format: int, crs: Crs) -> PointCloud:
+def _made(
+    arrays: Mapping[str, Any],
+    scales: Iterable[float],
+    offsets: Iterable[float],
+    point_format: int,
+    crs: Crs,
+) -> PointCloud:
     """Return a cloud, given its columns by their names, and three scales and offsets."""
     scale, offset = ((float(x), float(y), float(z)) for x, y, z in (scales, offsets))
     return PointCloud(

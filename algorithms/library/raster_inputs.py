@@ -18,7 +18,7 @@ _OFF = 1e-3
 _NODATA = "_FillValue", "missing_value", "nodata"
 
 
-def raster_of(given: Any, with_cells: bool = True) -> str | MemoryRaster:
+def raster_of(given: object, with_cells: bool = True) -> str | MemoryRaster:
     """Return a raster as tools take it, if need be without the values of its cells."""
     if isinstance(given, (str, PathLike)):
         return str(fspath(given))
@@ -32,7 +32,7 @@ def raster_of(given: Any, with_cells: bool = True) -> str | MemoryRaster:
     )
 
 
-def heights_of(given: Any) -> str | MemoryRaster:
+def heights_of(given: object) -> str | MemoryRaster:
     """Return a raster of heights as `raster_of` does; refuse one in memory that is a picture."""
     raster = raster_of(given)
     if isinstance(raster, MemoryRaster) and raster.content.values.dtype == np.uint8:
@@ -90,7 +90,7 @@ def _no_raster() -> BareEarthError:
 
 
 def _start_and_step(
-    centres: np.ndarray, name: Any, start: float, step: float
+    centres: np.ndarray, name: object, start: float, step: float
 ) -> tuple[float, float]:
     """Return where the first cell begins, and the distance of cells, by their centres, or else as
     they are stated.
@@ -112,7 +112,7 @@ def _start_and_step(
 def _made(
     given: Any,
     with_cells: bool,
-    name: Any,
+    name: str | None,
     place: tuple[float, ...],
     wkt: str | None,
     nodata: set[float],

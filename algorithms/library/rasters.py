@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -16,6 +16,9 @@ from ..rasters.geotiff import Raster as FileRaster
 from ..rasters.geotiff import RasterGrid
 from ..rasters.writing import Band, Rows
 from .transform import transform_of
+
+if TYPE_CHECKING:
+    from numpy.typing import DTypeLike
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,7 +55,7 @@ class Raster:
         object.__setattr__(self, "transform", transform_of(self.transform))
         object.__setattr__(self, "crs", crs_text(self.crs))
 
-    def __array__(self, dtype: Any = None, copy: bool | None = None) -> np.ndarray:
+    def __array__(self, dtype: DTypeLike | None = None, copy: bool | None = None) -> np.ndarray:
         """Return the values; those of Dask are computed."""
         values = np.asarray(self.values, dtype)
         if copy is False and values is not self.values:
@@ -123,7 +126,7 @@ class Raster:
         reference = {"GeoTransform": f"{west!r} {size!r} 0.0 {north!r} 0.0 {height!r}"}
         if self.crs is not None:
             reference.update(crs_wkt=self.crs, spatial_ref=self.crs)
-        coordinates: dict[str, Any] = {
+        coordinates: dict[str, object] = {
             "y": ("y", north + height * (np.arange(rows) + 0.5), {"axis": "Y"}),
             "x": ("x", west + size * (np.arange(columns) + 0.5), {"axis": "X"}),
             "spatial_ref": ((), 0, reference),

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import contextlib
 from os import PathLike
+from pathlib import Path
 from types import SimpleNamespace
-from typing import TYPE_CHECKING, Any, ContextManager, Sequence
+from typing import TYPE_CHECKING, ContextManager, Iterable, Sequence
 
 from ..core.errors import BareEarthError
 from ..core.parameters import ParameterSet
@@ -76,12 +77,12 @@ def most_bytes(values: SimpleNamespace) -> float:
     return most * 1e9
 
 
-def several(given: Any) -> list[Any]:
+def several(given: str | Path | Iterable[str | Path]) -> list[str | Path]:
     """Return sources, given as one or as several."""
     return [given] if isinstance(given, (str, PathLike)) else list(given)
 
 
-def is_remote(source: Any) -> bool:
+def is_remote(source: object) -> bool:
     """Return whether a source is given by its address."""
     return isinstance(source, str) and is_address(source)
 

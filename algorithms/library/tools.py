@@ -8,9 +8,10 @@ from dataclasses import replace
 from functools import cache, partial
 from pathlib import Path
 from types import SimpleNamespace
-from typing import Any, Callable
+from typing import Any, Callable, Sequence
 
 from ..core.errors import UsageError
+from ..core.parameters import ParameterSet
 from ..core.words import option
 from ..engine.memory import Resources
 from ..engine.options import TileInput, TileOutput
@@ -40,7 +41,7 @@ from .raster_inputs import heights_of
 CLASSIFIED = replace(arguments.SOURCES, help=f"{POINTS.help} {arguments.SOURCES.help}")
 _REACHES = (*arguments.REMOTE, arguments.SCHEDULER, arguments.PROGRESS)
 # What reads the inputs that have several arguments.
-_READERS: dict[str, Callable[[SimpleNamespace], Any]] = {
+_READERS: dict[str, Callable[[SimpleNamespace], object]] = {
     "area": area_of,
     "checkpoints": checkpoints_of,
     "constraints": constraints_of,
@@ -79,7 +80,7 @@ def _of_file_tool(command: str) -> Function:
     if any(declared.kind in ("cloud", "clouds") for declared in tool.inputs):
         given += arguments.REMOTE
 
-    def run(values: SimpleNamespace, sets: list[Any]) -> Any:
+    def run(values: SimpleNamespace, sets: Sequence[ParameterSet]) -> object:
         inputs = {declared.name: input_of(declared, values) for declared in tool.inputs}
         outputs = _outputs_of(tool, values)
         return run_tool(tool, inputs, outputs, sets, progress_of(values.progress))
@@ -124,7 +125,7 @@ def arguments_of(declared: Input) -> tuple[Argument, ...]:
     return (Argument.of(declared.name, kind, declared.help, default),)
 
 
-def input_of(declared: Input, values: SimpleNamespace) -> Any:
+def input_of(declared: Input, values: SimpleNamespace) -> object:
     """Return an input of a tool, as its work or its run gets it."""
     can_be_found = declared.found is not None or declared.kind == "constraints"
     is_found = can_be_found and is_automatic(values.water)
@@ -169,7 +170,7 @@ def _of_point_tool(command: str) -> Function:
     )  # fmt: skip
 
 
-def _run_on_points(tool: Tool, values: SimpleNamespace, sets: list[Any]) -> Any:
+def _run_on_points(tool: Tool, values: SimpleNamespace, sets: Sequence[ParameterSet]) -> object:
     """Let a tool work on points."""
     from ..tools.running import run
 
@@ -178,7 +179,7 @@ def _run_on_points(tool: Tool, values: SimpleNamespace, sets: list[Any]) -> Any:
     # One file, too, is written under its name into a folder.
     is_folder = target is not None and (Path(target).is_dir() or not Path(target).suffix)
     points = inputs_of(values, is_folder)
-    inputs: dict[str, Any] = {"input": points, "crs": values.crs}
+    inputs: dict[str, object] = {"input": points, "crs": values.crs}
     inputs.update((declared.name, input_of(declared, values)) for declared in tool.inputs)
     workers = workers_of(values, Resources.among(sets))
     return run(tool, inputs, outputs, sets, progress_of(values.progress), workers)
@@ -218,7 +219,7 @@ def _of_composition(command: str) -> Function:
 
     tool = composition(command)
 
-    def run(values: SimpleNamespace, sets: list[Any]) -> Any:
+    def run(values: SimpleNamespace, sets: Sequence[ParameterSet]) -> object:
         inputs = {declared.name: _READERS[declared.kind](values) for declared in tool.inputs}
         inputs["crs"] = values.crs
         workers = workers_of(values, Resources.among(sets))

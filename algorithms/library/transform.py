@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import Any, Iterable, NamedTuple
 
 from ..core.errors import BareEarthError
 
@@ -50,7 +50,7 @@ class Transform(NamedTuple):
         return geotransform_of(self)
 
 
-def transform_of(numbers: Any) -> Any:
+def transform_of(numbers: Iterable[float]) -> Any:
     """Return six numbers in the order of `affine.Affine` as one, or as a `Transform`."""
     six = [float(number) for number in tuple(numbers)[:6]]
     try:
@@ -60,7 +60,7 @@ def transform_of(numbers: Any) -> Any:
     return Affine(*six)
 
 
-def geotransform_of(transform: Any) -> tuple[float, ...]:
+def geotransform_of(transform: Iterable[float]) -> tuple[float, ...]:
     """Return the geotransform of GDAL, as plain numbers."""
     a, b, c, d, e, f = map(float, tuple(transform)[:6])
     return c, a, b, f, d, e
