@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
-from typing import Any, Sequence
+from typing import Sequence
 
 import numpy as np
 
@@ -92,7 +92,7 @@ class Assessment:
     classified_only: int = 0  # points that only this file has, which are not counted
     reference_only: int = 0  # as classified_only
 
-    def as_dict(self) -> dict[str, Any]:
+    def as_dict(self) -> dict[str, object]:
         """Return all figures for JSON; NaN, the only value that differs from itself, is None."""
         return {name: None if value != value else value for name, value in asdict(self).items()}
 

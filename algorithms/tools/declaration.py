@@ -58,7 +58,7 @@ class Input:
     may_be_empty: bool = False  # of polygons: whether a file or a layer may hold none
     # Finds the value in place of `ToFind`, where the user gives no polygons, or the word automatic:
     # given files, which of their points are ground, and the progress.
-    found: Callable[[Inputs, GroundClasses, Progress], Any] | None = None
+    found: Callable[[Inputs, GroundClasses, Progress], object] | None = None
 
     @property
     def field_name(self) -> str:
@@ -247,7 +247,10 @@ class PointTool(Tool):
         return (replace(CLOUD_OUTPUT, help=self.output_help, label=self.output_label),)
 
     def steps(
-        self, sets: Sequence[ParameterSet], inputs: Mapping[str, Any], outputs: Mapping[str, Path]
+        self,
+        sets: Sequence[ParameterSet],
+        inputs: Mapping[str, object],
+        outputs: Mapping[str, Path],
     ) -> tuple[Step, ...]:
         """Return its step, given its sets, and inputs and outputs by their names."""
         names = {type(default): name for name, default in vars(self.step()).items()}
@@ -256,7 +259,7 @@ class PointTool(Tool):
         return (self.step(**fields, **{name: inputs[name] for name in given}),)
 
 
-def _nothing(*given: Any, **named: Any) -> Any:
+def _nothing(*given: object, **named: object) -> Any:
     """Do nothing."""
 
 
@@ -270,7 +273,7 @@ class FileTool(Tool):
     work: Callable[..., Any] = _nothing
     outputs: tuple[Output, ...] = ()
     # Says what a user of the command did not give, from the inputs and the sets; empty for nothing.
-    lacks: Callable[[Mapping[str, Any], Sequence[ParameterSet]], str] = lambda inputs, sets: ""
+    lacks: Callable[[Mapping[str, object], Sequence[ParameterSet]], str] = lambda inputs, sets: ""
     # Further flags of parameters, which take one value.
     flags: Mapping[str, str] = field(default_factory=dict)
     always_tells: bool = False  # whether the command prints the text, not only with --verbose

@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import Any, Mapping, Sequence
+from typing import Mapping, Sequence
 
 import numpy as np
 
@@ -186,7 +186,7 @@ def _check_of(found: Residuals | None, accuracy: Accuracy, left: HoldOut | None)
     )  # fmt: skip
 
 
-def _lacks(inputs: Mapping[str, Any], sets: Sequence[ParameterSet]) -> str:
+def _lacks(inputs: Mapping[str, object], sets: Sequence[ParameterSet]) -> str:
     if inputs["checkpoints"] is None and CheckOptions.among(sets).hold_out is None:
         return _nothing_to_compare()
     return ""

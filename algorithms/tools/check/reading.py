@@ -34,7 +34,7 @@ class Record(NamedTuple):
     """A row of a table, or a point of a layer."""
 
     where: str  # the row, for messages
-    cells: Sequence[Any]  # the value of each column
+    cells: Sequence[object]  # the value of each column
     place: np.ndarray | None = None  # float64 (3,); z is NaN without one, None for rows of tables
 
 
@@ -293,9 +293,10 @@ def _differ(heights: np.ndarray, others: np.ndarray) -> bool:
         return bool((np.abs(heights - others) > _SAME).any())
 
 
-def _word(value: Any) -> str:
+def _word(value: object) -> str:
     """Return a name or a land cover as text."""
     if value is None or (isinstance(value, float) and np.isnan(value)):
         return ""
-    is_whole = isinstance(value, float) and value.is_integer()
-    return str(int(value) if is_whole else value).strip()
+    if isinstance(value, float) and value.is_integer():
+        value = int(value)
+    return str(value).strip()

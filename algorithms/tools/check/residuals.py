@@ -241,7 +241,7 @@ def write_table(target: Path, found: Residuals) -> None:
             writer.writerow(["" if cell != cell else _cell(cell) for cell in row])
 
 
-def _cell(value: Any) -> Any:
+def _cell(value: object) -> object:
     """Return a value for a cell; a name must not look like a formula to a spreadsheet."""
     if not isinstance(value, str):
         return value

@@ -128,7 +128,7 @@ class Check:
             f"The ground points {does} the class of {self.accuracy_class:g} m{by if few else ''}."
         )
 
-    def as_dict(self) -> dict[str, Any]:
+    def as_dict(self) -> dict[str, object]:
         """Return all figures for JSON."""
         return asdict(self)
 

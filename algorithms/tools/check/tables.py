@@ -7,7 +7,7 @@ import math
 import re
 from itertools import zip_longest
 from pathlib import Path
-from typing import Any, NamedTuple, Sequence
+from typing import NamedTuple, Sequence
 
 from ...core.errors import BareEarthError
 from ...las.sources import open_source
@@ -164,7 +164,7 @@ def places_without_names(rows: Sequence[Sequence[str]]) -> dict[str, int]:
     return places
 
 
-def number_of(value: Any) -> float | None:
+def number_of(value: object) -> float | None:
     """Return the number in a cell such as "512345,67", "5'400'000.5" or "1.234,5"; None if it is
     none.
     """

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from ...core.commands import shell_line
 from ...core.files import split_name
@@ -33,8 +33,7 @@ class Setting(NamedTuple):
     @property
     def parameters(self) -> ParameterSet:
         """The parameters of the method."""
-        parameters: Any = self.method.parameters
-        return parameters(preset=self.preset)
+        return self.method.parameters(preset=self.preset)  # type: ignore[call-arg]
 
     def commands(self, paths: Inputs) -> tuple[str, str]:
         """Return what runs the setting on all points of a file, or inputs of a survey: in a shell,
@@ -48,7 +47,7 @@ class Setting(NamedTuple):
         shell = shell_line(words + (["--crs", paths.stated] if paths.stated else []))
         # QGIS has another current folder.
         sources, output = [str(path.absolute()) for path in paths], str(target.absolute())
-        values: dict[str, Any]
+        values: dict[str, object]
         if is_one:
             dialog = next(tool for tool in METHOD_TOOLS if tool.method == self.method.name)
             algorithm = f"bareearth:{dialog.identifier}"

@@ -133,7 +133,7 @@ class Quality:
         """The number of cells in which strips are compared, of those with several strips."""
         return f"{self.compared:,} of {counted(self.overlapping, 'cell')}"
 
-    def as_dict(self) -> dict[str, Any]:
+    def as_dict(self) -> dict[str, object]:
         """Return the figures as plain values."""
         plain = asdict(self)
         del plain["comparison"]
@@ -159,7 +159,7 @@ def _share(value: float) -> str:
     return f"{100 * value:.2f} %"
 
 
-def _counts(values: Mapping[Any, int]) -> str:
+def _counts(values: Mapping[int, int] | Mapping[str, int]) -> str:
     return ", ".join(f"{name}: {count:,}" for name, count in values.items())
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Iterable, Iterator, Sequence
+from typing import Iterable, Iterator, Sequence
 
 import numpy as np
 
@@ -68,7 +68,9 @@ def _summed(values: np.ndarray, window: int) -> np.ndarray:
     return values
 
 
-def moments(number: Any, x: Any, y: Any, z: Any) -> Iterator[np.ndarray]:
+def moments(
+    number: np.ndarray, x: np.ndarray | float, y: np.ndarray | float, z: np.ndarray
+) -> Iterator[np.ndarray]:
     """Yield what sums up to the plane of least squares through points, for `plane_of`."""
     yield from (number * value for value in (1.0, x, y, z, x * x, x * y, y * y, x * z, y * z))
 

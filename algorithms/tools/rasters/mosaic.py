@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import copy
-from typing import Any, Callable, Iterator, Sequence
+from typing import Callable, Iterator, Sequence
 
 import numpy as np
 
@@ -18,7 +18,9 @@ from .block import CONTENTS, TOP, BlockRasters
 from .level_water import NO_WATER_CELLS, WaterCells
 
 
-def joined(blocks: Sequence[BlockRasters], layer: str, strip: CellWindow, empty: Any) -> np.ndarray:
+def joined(
+    blocks: Sequence[BlockRasters], layer: str, strip: CellWindow, empty: np.generic
+) -> np.ndarray:
     """Return the cells of a layer in a strip, rows from the south; `empty` where there is none."""
     cells = np.full(strip.shape, empty)
     for block in blocks:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any, BinaryIO, Iterator, Sequence
+from typing import Any, BinaryIO, Iterator, Mapping, Sequence, TypeVar
 
 import numpy as np
 
@@ -18,7 +18,7 @@ from ...core.words import counted
 from ...crs.measurable import require_measurable
 from ...engine.block_grid import BlockGrid, BlockIndex
 from ...engine.blocks import Blocks
-from ...engine.disk_store import rows_in
+from ...engine.disk_store import RowsOnDisk, rows_in
 from ...engine.memory import Cost
 from ...engine.step import Look, Sink, Step
 from ...engine.store import OTHERS, Marks, Store
@@ -38,6 +38,7 @@ from .constraints import NO_CONSTRAINTS, Constraints
 from .fixed_terrain import fixed_terrain
 from .output import AROUND_AREA, Drawing, RasterSize, no_point_in, write_rasters
 
+_Array = TypeVar("_Array", np.ndarray, RowsOnDisk)
 # Points are thinned to one a cell unless the cells are more than ten times as many as the points,
 # of which hardly two would share one.
 _MOST_THINNED = 10
@@ -303,6 +304,6 @@ class MakeRasters(Drawing, Sink):
         return write_rasters(result, frame, self, outputs, progress, files)
 
 
-def _of(arrays: Any, start: str) -> dict[str, Any]:
+def _of(arrays: Mapping[str, _Array], start: str) -> dict[str, _Array]:
     """Return the arrays whose names begin in one way, by the ends of these."""
     return {name[len(start) :]: arrays[name] for name in arrays if name.startswith(start)}

@@ -6,11 +6,14 @@ The reaches are the connected parts of bands of equal distance from one end (a R
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from .descent import Network
+
+if TYPE_CHECKING:
+    from scipy.sparse import csr_matrix
 
 # Most cells in which the ways along a river are searched.
 _MOST_CELLS = 200_000
@@ -125,7 +128,7 @@ def _neighbours(cells: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return np.concatenate(ends), np.concatenate(apart)
 
 
-def _matrix(ends: np.ndarray, weights: np.ndarray, size: int) -> Any:
+def _matrix(ends: np.ndarray, weights: np.ndarray, size: int) -> csr_matrix:
     from scipy.sparse import coo_matrix
 
     return coo_matrix((weights, ends.T), shape=(size, size)).tocsr()
@@ -136,7 +139,7 @@ def _links(edges: np.ndarray) -> np.ndarray:
     return np.unique(np.sort(edges[edges[:, 0] != edges[:, 1]], axis=1), axis=0)
 
 
-def _farthest(graph: Any, start: int) -> int:
+def _farthest(graph: csr_matrix, start: int) -> int:
     from scipy.sparse.csgraph import dijkstra
 
     far = dijkstra(graph, directed=False, indices=start)
