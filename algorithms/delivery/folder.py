@@ -1,4 +1,4 @@
-"""The folder of a delivery: it holds a whole delivery, or what it held before."""
+"""The folder of a delivery: it gets a complete delivery, or stays as it was."""
 
 from __future__ import annotations
 
@@ -29,14 +29,14 @@ POINTS = "points"
 QUALITY = "quality"
 PAGE = "index.html"
 RECORD = "delivery.json"
-# Folder of what tools made of the classified files, in folders with the names of the tools.
+# Folder of files that tools have changed, in folders with the names of the tools.
 _WAITING = ".waiting"
 # The lock in the folder of records, see `alone_in`.
 _LOCK = "lock"
 
 
 class DeliveryFolder:
-    """The folder of a delivery, which is made if it is missing."""
+    """The folder of a delivery, which need not exist yet."""
 
     def __init__(self, path: Path) -> None:
         self.path = Path(path)
@@ -53,8 +53,8 @@ class DeliveryFolder:
 
     @property
     def _places_of_records(self) -> tuple[Path, Path]:
-        """Where a run has the records of many files, and where a finished delivery has them, since
-        who receives the points has no use for these.
+        """The folders of the records of many files: during a run beside the points, and afterwards
+        in the folder of the delivery, since clients do not need them among the points.
         """
         during = folders_of(self.points)[1]
         return during, self.path / during.name
@@ -70,16 +70,16 @@ class DeliveryFolder:
         return record if is_whole else None
 
     def check(self, sources: Sequence[Path]) -> None:
-        """Refuse, before any work, a folder with files of the user, or that cannot be made."""
+        """Refuse, before any work, a folder with other files, or one that cannot be made."""
         check_lengths(self.path, [f"{MARKS}/{QUALITY}/strip_differences.tif"])
         if not self.path.exists():
             check_output(self.path)
             return
         if not self.path.is_dir():
             raise BareEarthError(f"Cannot write into {self.path}: it is a file. Give a folder.")
-        here = self.path.resolve()
+        folder = self.path.resolve()
         for source in map(Path, sources):
-            if here == source.resolve() or here in source.resolve().parents:
+            if folder == source.resolve() or folder in source.resolve().parents:
                 raise BareEarthError(
                     f"The input {source} is in the folder of the delivery, {self.path}. Choose"
                     " another folder."
@@ -95,7 +95,7 @@ class DeliveryFolder:
             check_free(self.path / name)
 
     def begin(self, delivery: str) -> None:
-        """Make the folder for files that are finished one by one, and say that more will follow."""
+        """Make the folder for files that are finished one by one, with an unfinished record."""
         files = self._files
         during, after = self._places_of_records
         with write_errors_told(self.path):
@@ -109,7 +109,7 @@ class DeliveryFolder:
         )
 
     def leave(self) -> bool:
-        """Remove what is not finished; return whether finished files stay."""
+        """Remove unfinished files; return whether finished files stay."""
         folders = [folder for folder in (self.points, self.waiting) if folder.is_dir()]
         if any(is_cloud(path) for folder in folders for path in folder.rglob("*")):
             return True
@@ -122,18 +122,18 @@ class DeliveryFolder:
         return False
 
     def replace(self, working: Path, changed: Sequence[Path], record: dict[str, Any]) -> None:
-        """Put a finished delivery from a temporary folder on the same disk here in place of an
-        earlier one: all of it, or nothing, and its record with the names of the files.
+        """Move a finished delivery from a temporary folder on the same disk into this one, in place
+        of an earlier delivery: all of its files or none; write its record with their names.
         """
-        # The changed files are in folders of tools, and replace those with the same names among the
-        # points. `OutputInUse` says, if an old file is open, where the new delivery is.
+        # The changed files are in folders of tools, and replace points with the same names. If an
+        # old file is open, `OutputInUse` says where the new delivery is.
         old = self._files
         names = [
             path.relative_to(working).as_posix() for path in working.rglob("*") if path.is_file()
         ]
         kept = {*names, *record["files"]}
         _write_record(working / RECORD, {**record, "is_finished": True, "files": sorted(kept)})
-        # The records of many files first, which tell whether a file was changed; the page last.
+        # First the records of many files, which say whether a file was changed, and last the page.
         moves = [
             (path, self.points.joinpath(*path.relative_to(self.waiting).parts[1:]))
             for path in changed
@@ -171,9 +171,9 @@ class DeliveryFolder:
     @property
     def _files(self) -> list[str]:
         """The files of the delivery that the folder holds, if they are in it."""
-        record, here = self._record or {"files": []}, self.path.resolve()
+        record, folder = self._record or {"files": []}, self.path.resolve()
         named = (name for name in record["files"] if isinstance(name, str))
-        return [name for name in named if here in (self.path / name).resolve().parents]
+        return [name for name in named if folder in (self.path / name).resolve().parents]
 
 
 def _write_record(path: Path, record: dict[str, object]) -> None:
@@ -182,8 +182,8 @@ def _write_record(path: Path, record: dict[str, object]) -> None:
 
 
 def exchange(moves: Sequence[tuple[Path, Path]], outdated: Sequence[Path], aside: Path) -> None:
-    """Move files to their places and remove others, all or, after an error such as `OutputInUse`,
-    none; `aside` is a temporary folder on the same disk, for the old files.
+    """Move files to their places, and remove outdated ones, all or, after an error, none; `aside`
+    is a temporary folder on the same disk for the old files.
     """
     targets = [*(target for _, target in moves), *outdated]
     for path in targets:
@@ -211,7 +211,7 @@ def exchange(moves: Sequence[tuple[Path, Path]], outdated: Sequence[Path], aside
 
 
 def _set_aside(path: Path, old: Path) -> None:
-    """Keep an old file under another name; where the disk can do so, also under its own."""
+    """Keep an old file under another name, and if the disk has hard links also under its own."""
     try:
         os.link(path, old)
     except OSError:

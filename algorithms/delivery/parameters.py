@@ -1,4 +1,4 @@
-"""Parameters of deliveries, some of which a delivery decides where they are left open."""
+"""Parameters of deliveries; for some that the user leaves empty, the delivery has values."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ class DeliveryChoice(ParameterSet):
 
 @dataclass(frozen=True)
 class DeliveryOptions(ParameterSet):
-    """What a delivery contains beside its outputs, and with what it is compared."""
+    """Options of a delivery: its specification, key points, and points to hold out."""
 
     specification: str = parameter(
         AS_DELIVERY,
@@ -79,7 +79,7 @@ class DeliveryOptions(ParameterSet):
 
 @dataclass(frozen=True)
 class DeliveryTerrain(MapTerrain):
-    """The terrain model of a delivery, whose cell size can be left open."""
+    """The terrain model of a delivery, whose cell size can be empty."""
 
     dtm_cell_size: float | None = parameter_of(  # type: ignore[assignment]
         MapTerrain,
@@ -93,7 +93,7 @@ class DeliveryTerrain(MapTerrain):
     )
 
     def with_cells(self, size: float) -> MapTerrain:
-        """Return the parameters of maps, with a cell size in metres if it is left open."""
+        """Return the parameters of maps, with this cell size in metres if the user gave none."""
         values = dict(vars(self))
         if self.dtm_cell_size is None:
             values |= {"dtm_cell_size": size, "dtm_cell_unit": "m"}
@@ -102,7 +102,7 @@ class DeliveryTerrain(MapTerrain):
 
 @dataclass(frozen=True)
 class DeliveryWater(Water):
-    """The water of a delivery, whose limits can be left open."""
+    """The water of a delivery, whose limits can be empty."""
 
     min_area: float | None = parameter_of(  # type: ignore[assignment]
         Water,
@@ -129,7 +129,7 @@ class DeliveryWater(Water):
 
 
 class Settings:
-    """The parameters of a delivery: what the user gave, and values of the table for the rest."""
+    """The parameters of a delivery: the values of the user, or else those of the delivery."""
 
     def __init__(self, sets: Iterable[ParameterSet], values: Mapping[str, object]) -> None:
         self.values = dict(values)  # of parameters that the user left at their defaults, by name
@@ -147,7 +147,7 @@ class Settings:
         return [self.set_of(kind) for kind in kinds]
 
     def set_of(self, kind: type[GivenSet]) -> GivenSet:
-        """Return parameters with the values of the table where the user left the defaults."""
+        """Return parameters, with the values of the delivery where the user left the defaults."""
         values: dict[str, object] = {}
         given = self.given(kind)
         for declared in given.declarations():
@@ -156,7 +156,7 @@ class Settings:
                 value = self.values.get(name, value)
                 if declared.choices and value not in declared.choices:
                     value = declared.default
-            # What was left open, and only in the table, has the default of the tool.
+            # A value that neither the user nor the delivery gives has the default of the tool.
             if value is not None or declared.default is not None:
                 values[name] = value
         return kind(**values)
@@ -167,5 +167,5 @@ class Settings:
 
     @property
     def method(self) -> ParameterSet:
-        """The parameters of the ground filter, without values of the table."""
+        """The parameters of the ground filter, without values of the delivery."""
         return next(values for values in self.sets if isinstance(values, _METHODS))

@@ -1,4 +1,4 @@
-"""Makes a delivery: everything that a job hands over, from raw points, in one folder."""
+"""Makes a delivery from raw points, in one folder."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ def deliver(
     # On the disk of the folder, so that outputs can be moved there.
     beside = place.path if files.is_survey else place.path.parent
     new = partial(temporary_folder, beside)
-    with _left_in_order(place, files.is_survey), new() as working, new() as unpacked:
+    with _cleaned_up_after_errors(place, files.is_survey), new() as working, new() as unpacked:
         changed = {place.waiting / command: place.points for command in POINT_TOOLS}
         messages.folders = {working: place.path, **changed}
         summary = DeliverySummary(
@@ -69,8 +69,8 @@ def deliver(
         places = {name: path.replace(str(working), str(place.path)) for name, path in shown.items()}
         summary.cloud, summary.layers = places.pop("cloud"), places
         messages(1.0)  # the last moment to cancel
-        # The points of many files are in the folder already.
-        there = [path for path in job.files if path.parent == place.points and path.is_file()]
+        # The points of many files have been written into the folder already.
+        present = [path for path in job.files if path.parent == place.points and path.is_file()]
         record = {
             "delivery": delivery,
             "version": __version__,
@@ -79,21 +79,21 @@ def deliver(
             "ground": summary.ground_count,
             "classes": summary.class_counts,
             "water": None if summary.water is None else asdict(summary.water),
-            "files": [path.relative_to(place.path).as_posix() for path in there],
+            "files": [path.relative_to(place.path).as_posix() for path in present],
         }
-        place.replace(working, job.waiting, record)
+        place.replace(working, job.changed_files, record)
     return summary
 
 
 class _Messages(PassingOn):
-    """Passes on messages, each once, since several steps read the same files; keeps warnings."""
+    """Passes on each message once, since several tools read the same files, and keeps warnings."""
 
     def __init__(self, whole: Progress) -> None:
         super().__init__(whole)
-        # which messages name in place of those that are temporary
+        # The folders that messages name in place of temporary ones.
         self.folders: dict[Path, Path] = {}
         self.warnings: list[str] = []
-        self._said: set[str] = set()
+        self._passed_on: set[str] = set()
 
     def info(self, text: str) -> None:
         """Pass on a message."""
@@ -110,11 +110,11 @@ class _Messages(PassingOn):
     def _tell(
         self, pass_on: Callable[[str], None], text: str, kept: list[str] | None = None
     ) -> None:
-        """Pass on a message as it is to be read, unless it was passed on before."""
+        """Pass on a message with the final names of folders, unless it was passed on before."""
         for temporary, folder in self.folders.items():
             text = text.replace(str(temporary), str(folder))
-        if text not in self._said:
-            self._said.add(text)
+        if text not in self._passed_on:
+            self._passed_on.add(text)
             pass_on(text)
             if kept is not None:
                 kept.append(text)
@@ -123,7 +123,7 @@ class _Messages(PassingOn):
 def _opened(
     files: Inputs, sets: Sequence[ParameterSet], inputs: Mapping[str, Any], progress: Progress
 ) -> Inputs:
-    """Return the files with what they hold; refuse now what would fail after hours."""
+    """Open the files, and refuse before the work what would fail after hours."""
     files = files.read_as(inputs["crs"], TileInput.among(sets).recursive)
     survey = open_survey(files, progress.part(0.0, 0.01))
     if inputs["checkpoints"] is not None:
@@ -132,8 +132,10 @@ def _opened(
 
 
 @contextlib.contextmanager
-def _left_in_order(place: DeliveryFolder, is_survey: bool) -> Iterator[None]:
-    """After a cancel or an error, leave no empty folder; say if the run can be continued."""
+def _cleaned_up_after_errors(place: DeliveryFolder, is_survey: bool) -> Iterator[None]:
+    """After a cancel or an error, remove an empty folder, and raise `FinishedFilesStay` after a
+    cancel if the run can be continued.
+    """
     try:
         yield
     except (BareEarthError, Cancelled, KeyboardInterrupt) as error:

@@ -1,4 +1,4 @@
-"""What a delivery holds, in figures."""
+"""The figures of a delivery."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ _NO_CHECKPOINTS = "accuracy", "not measured: no checkpoints are given"
 
 @dataclass
 class DeliverySummary:
-    """What a delivery holds."""
+    """The files and figures of a delivery."""
 
     folder: str
     delivery: str
-    page: str  # that shows it
+    page: str  # that lists and shows them
     cloud: str = ""  # the classified file, or the virtual point cloud of many
-    # files that a map shows, by names of `RASTERS` and of vector layers
+    # rasters and vector files that maps show, by names of `RASTERS` and of vector layers
     layers: dict[str, str] = field(default_factory=dict)
     point_count: int = 0
     ground_count: int = 0
@@ -32,7 +32,7 @@ class DeliverySummary:
     # why some of many files are left out, by their paths
     failures: dict[str, str] = field(default_factory=dict)
     warnings: list[str] = field(default_factory=list)
-    seconds: dict[str, float] = field(default_factory=dict)  # that each step took
+    seconds: dict[str, float] = field(default_factory=dict)  # by the titles of rows
     quality: Quality | None = field(default=None, repr=False)
     # errors at checkpoints and at points that were held out
     check: Check | None = field(default=None, repr=False)
@@ -48,9 +48,9 @@ class DeliverySummary:
 
     @property
     def verdict(self) -> str:
-        """What was found at checkpoints, and compared with the specification of the delivery."""
-        found = [part.verdict for part in (self.check, self.quality) if part is not None]
-        return " ".join(f"{text.rstrip('.')}." for text in found if text)
+        """The verdicts on the errors at checkpoints, and on the specification of the delivery."""
+        verdicts = [part.verdict for part in (self.check, self.quality) if part is not None]
+        return " ".join(f"{verdict.rstrip('.')}." for verdict in verdicts if verdict)
 
     def rows(self) -> list[tuple[str, str]]:
         """Return titles and values of the figures that matter most, as text."""
