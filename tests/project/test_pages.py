@@ -32,7 +32,7 @@ def test_the_page_of_all_parameters_is_what_is_declared():
 
 
 def test_a_page_explains_each_noun_of_the_engine_once():
-    text = (ROOT / "docs" / "developing.md").read_text(encoding="utf-8")
+    text = (ROOT / "ARCHITECTURE.md").read_text(encoding="utf-8")
     table = text.split("## The nouns of the engine")[1].split("\n## ")[0]
     explained = re.findall(r"`([A-Z]\w+)`", re.sub(r"; `\w+` chooses", "", table))
     nouns = []

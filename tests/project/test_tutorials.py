@@ -16,7 +16,7 @@ from bare_earth.algorithms import cli
 from benchmarks.scenes.scene import ORIGIN
 
 ROOT = Path(__file__).parents[2]
-TUTORIALS = ROOT / "docs" / "tutorials"
+_JOBS_PAGE = ROOT / "docs" / "jobs.md"
 JOBS = ("survey", "archaeology", "forestry", "flood", "drone-site")
 PAGES = sorted((ROOT / "docs").rglob("*.md"))
 _NUMBER = re.compile(r"[-+]?\d[\d,]*(?:\.\d+)?")
@@ -33,6 +33,12 @@ def pages():
     pytest.importorskip("rasterio")
     yield importlib.import_module("demo.pages")
     sys.path.remove(str(ROOT))
+
+
+def tutorials():
+    """Return the sections of the page of jobs, by the names of their deliveries."""
+    _, *sections = re.split(r"^## ", _JOBS_PAGE.read_text(encoding="utf-8"), flags=re.M)
+    return {re.search(r"make demo JOB=(\S+)", section)[1]: section for section in sections}
 
 
 def shown(folder):
@@ -88,7 +94,7 @@ def error_in(drawn, delivery, scene):
 
 @pytest.mark.parametrize("job", quick(JOBS, "flood"))
 def test_a_tutorial_runs_and_says_what_comes_out(job, pages, tmp_path, monkeypatch):
-    page = (TUTORIALS / f"{job}.md").read_text(encoding="utf-8")
+    page = tutorials()[job]
     jobs = importlib.import_module("demo.jobs")
     # The page makes its scene, which is also the truth here: once is enough.
     monkeypatch.setattr(jobs, "scene_of", functools.lru_cache(maxsize=1)(jobs.scene_of))
@@ -128,7 +134,7 @@ def test_the_first_steps_print_what_their_page_says(pages, tmp_path):
 def test_the_tutorials_are_those_of_all_deliveries():
     from bare_earth.algorithms.delivery.deliveries import DELIVERIES
 
-    assert {path.stem for path in TUTORIALS.glob("*.md")} == set(JOBS) == set(DELIVERIES)
+    assert set(tutorials()) == set(JOBS) == set(DELIVERIES)
 
 
 def test_make_hands_the_job_to_the_demo():

@@ -212,7 +212,7 @@ def test_the_method_of_many_files_needs_what_it_looks_at():
 
 def test_the_tutorial_runs(server, tiles, tmp_path, monkeypatch):
     pytest.importorskip("rasterio")
-    page = (Path(__file__).parents[2] / "docs" / "tutorial-remote.md").read_text(encoding="utf-8")
+    page = (Path(__file__).parents[2] / "docs" / "fetch.md").read_text(encoding="utf-8")
     page = page.replace("https://data.example.org/tile.copc.laz", add(server, tiles[0]))
     page = page.replace("568100 5931100 568200 5931200", " ".join(map(str, BOX)))
     monkeypatch.chdir(tmp_path)

@@ -146,7 +146,7 @@ TOOL = PointTool(
     " become buildings.\n"
     "Only points of class 0 and 1 change, unless you ask for more. Nothing else in the file"
     " changes. Lengths are metres, whatever the unit of the CRS.",
-    page="above-ground",
+    page="heights#classes-above-the-ground",
     words=(
         CLOUD,
         CANOPY,
