@@ -151,7 +151,10 @@ def test_the_help_is_whole_and_needs_nothing_else(names, package, metadata):
                 assert f"bare_earth/help/{to}" in names, (page, link)
                 assert not anchor or f'id="{anchor}"' in pages[to], (page, link)
             elif link.startswith(metadata["repository"]):
-                assert (ROOT / link.partition("/blob/main/")[2]).is_file(), (page, link)
+                assert (ROOT / link.partition("/blob/main/")[2].partition("#")[0]).is_file(), (
+                    page,
+                    link,
+                )
         # Nothing is left as it is written.
         prose = re.sub("(?s)<pre>.*?</pre>", "", text)
         assert not re.search(r"\]\(|^\| |^#+ |```", prose, re.M), page
