@@ -1,4 +1,4 @@
-"""Square blocks of grid cells: their lowest heights, and interpolation between their middles."""
+"""Square blocks of cells: values of blocks from those of cells, and of cells from blocks."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ from .trend import between_blocks
 
 
 class CellBlocks(NamedTuple):
-    """Square blocks of cells, anchored at (0, 0) of the points' frame."""
+    """Square blocks of cells, with a corner at (0, 0) of the points' frame."""
 
     size: float  # side in metres
     side: int  # in cells
-    first: tuple[int, int]  # row and column of the first cell within its block
-    first_block: tuple[int, int]  # row and column
+    first: tuple[int, int]  # row and column of the first cell, within its block
+    first_block: tuple[int, int]  # row and column of this block in the grid of blocks
 
     @classmethod
     def over(cls, cells: Cells, size: float, least: int = 2) -> CellBlocks:

@@ -16,34 +16,28 @@ from ..core.errors import BareEarthError
 from ..core.parameters import ParameterSet, parameter
 from ..core.points import Points
 from ..core.progress import Progress
-from ..grids.cells import Cells
+from ..grids.cells import Cells, usual_count
+from .cell_blocks import CellBlocks
 from .method import TERRAINS, Method, as_given, of_preset
 from .pipeline import Pipeline
 from .stages import shared_pipeline
 from .stages.accept import NearSurface
 from .stages.breaks import Plants
-from .stages.objects import (
-    BlockPits,
-    FineSeeds,
-    PaperSurface,
-    RaisedObjects,
-    Rims,
-    TallObjects,
-    density,
-)
+from .stages.objects import BlockPits, FineSeeds, RaisedObjects, Rims, TallObjects
 from .stages.seeds import LowestPoints, Seeds
-from .stages.tolerance import ToleranceSurface
+from .stages.tolerance import PaperSurface, ToleranceSurface
 
-# Points that a cell should hold on average: with fewer, gaps break the rims.
+# Least mean number of points in a cell: with fewer, gaps break the rims.
 _POINTS_PER_CELL = 1.0
-# Where points are sparse, the side of a cell is a multiple of this, in metres.
+# Step in metres by which cells are enlarged where points are sparse.
 _CELL_STEP = 0.5
-# Cells are not enlarged if they are too small by less than this share of their side.
+# Cells that are too small by less than this share of their side are not enlarged.
 _NEARLY = 0.05
-# Least side in metres of the cells in which points are counted if those of the filter are too many.
+# Least side in metres of the blocks in which the density is measured, and of the cells in which
+# points are counted if those of the filter are too many.
 _DENSITY_BLOCK = 10.0
-# Points affect each other within this multiple of the largest object, and in any case within these
-# metres.
+# The distance within which points affect each other, as a multiple of the largest object, and its
+# least value in metres.
 _REACH_OBJECTS = 2.0
 _LEAST_REACH = 100.0
 
@@ -160,13 +154,13 @@ class GridMinimum(ParameterSet):
     def _resolved(self, cells: Cells) -> GridMinimum:
         values = PRESETS[self.preset]._asdict()
         if self.cell_size is None and self.preset != CLASSIC:
-            large_enough = _CELL_STEP * _multiple(density(cells), _CELL_STEP)
+            large_enough = _CELL_STEP * _multiple(_density(cells), _CELL_STEP)
             values["cell_size"] = max(values["cell_size"], large_enough)
         return self.filled(values)
 
 
 def largest_object(parameters: GridMinimum) -> float:
-    """Return the width in metres of the largest building that is searched."""
+    """Return the width in metres of the largest building that is removed."""
     return parameters.max_object_size or PRESETS[parameters.preset].max_object_size
 
 
@@ -177,8 +171,8 @@ def reach(parameters: GridMinimum) -> float:
 
 def pipeline(points: Points, parameters: GridMinimum, progress: Progress) -> Pipeline:
     """Return the rules for some points, and tell which values were chosen."""
-    # Objects are removed from the grid of lowest points, the tall ones first, and last the rims
-    # that are left; removed cells grow back if they are level with the ground beside them.
+    # Objects are removed from the grid of lowest points: first tall ones, then the rims that are
+    # left. Removed cells that are level with the ground beside them become ground again.
     cells = _counting_cells(points, parameters)
     resolved = parameters._resolved(cells)
     values = as_given(PRESETS[parameters.preset], resolved)
@@ -186,7 +180,7 @@ def pipeline(points: Points, parameters: GridMinimum, progress: Progress) -> Pip
         names = "preset", "cell_size", "height_thresholds", "final_height", "max_object_size"
         progress.choice(f"Grid minimum: {resolved.in_words(*names)}.")
     if parameters.cell_size is not None or parameters.preset == CLASSIC:
-        _tell_of_gaps(density(cells), values.cell_size, progress)
+        _tell_of_gaps(_density(cells), values.cell_size, progress)
     if resolved.preset == CLASSIC:
         return _classic(as_given(PaperPreset(), resolved))
     size, heights = values.max_object_size, values.height_thresholds
@@ -219,6 +213,12 @@ def _classic(values: PaperPreset) -> Pipeline:
     )
 
 
+def _density(cells: Cells) -> float:
+    """Return the median density of blocks within the survey, in points per square metre."""
+    blocks = CellBlocks.over(cells, _DENSITY_BLOCK, least=1)
+    return usual_count(blocks.total(cells.counts)) / blocks.size**2
+
+
 def _tell_of_gaps(density: float, size: float, progress: Progress) -> None:
     """Warn if cells are too small for the number of points per square metre."""
     multiple = _multiple(density, size)
@@ -230,7 +230,7 @@ def _tell_of_gaps(density: float, size: float, progress: Progress) -> None:
 
 
 def _multiple(density: float, size: float) -> int:
-    """Return by how many times cells must be enlarged to hold about one point."""
+    """Return the least multiple of the size of cells with which they hold about one point."""
     return max(math.ceil(math.sqrt(_POINTS_PER_CELL / density) / size - _NEARLY), 1)
 
 

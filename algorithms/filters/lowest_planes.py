@@ -1,6 +1,6 @@
-"""The lowest points of cells, and the plane through those round a place.
+"""The lowest points of cells, and the planes through those round a place.
 
-The plane follows the lower ones where roofs or crowns stand among them.
+If roofs or crowns are among the lowest points, the plane goes through those of the ground.
 """
 
 from __future__ import annotations
@@ -16,41 +16,38 @@ from ..grids.gradient import gradient
 from ..grids.inpaint import inpaint
 from ..grids.morphology import closing_by_square, median_of_nine, within_square
 
-# Directions in which the surroundings are looked at.
-SIDES = 8
-# Rounds in which the plane is fitted. In the first ones, heights far from it still count.
+SIDES = 8  # number of directions into which the surroundings are divided
+# Robust fit of a plane: quantile of the heights at which it starts, below roofs and crowns; number
+# of rounds, and of the first ones, in which heights far from the plane still have weight.
+_START = 0.3
 _ROUNDS = 6
 _WIDE_ROUNDS = 2
-# The scale of the weights, as a multiple of the usual misfit, in these rounds and in the others.
+# Scale of the weights, in median misfits, in the first rounds and in the others; and the least
+# scale in metres.
 _WIDE = 3.0
 _NARROW = 2.0
-# Least distance in metres from the plane at which a height counts less.
 _EXACT = 0.1
-# Side in cells of the squares over which the slope of the terrain is averaged.
-_SLOPE_CELLS = 5
-# Places that are looked at together.
-_PLACES_A_PART = 2048
-# Share of the known heights below which the fit of the plane starts: under roofs and crowns.
-_START = 0.3
+_SLOPE_CELLS = 5  # side in cells of the squares over which the slope of the terrain is averaged
+_PLACES_A_PART = 2048  # places whose surroundings are computed at a time
 
 
 class Surroundings(NamedTuple):
     """The lowest points round some places; arrays of shape (places, neighbours)."""
 
-    centre: tuple[np.ndarray, np.ndarray, np.ndarray]  # x, y and z of the places
-    # float32: Relative to the place; 0 where nothing is known.
+    centre: tuple[np.ndarray, np.ndarray, np.ndarray]  # x, y and z of the places, (places,)
+    # float32: Relative to the place; 0 where no neighbour is known.
     x: np.ndarray
     y: np.ndarray
     z: np.ndarray
     distance: np.ndarray  # float32: Horizontal distance from the place
     side: np.ndarray  # int8: Direction from the place, 0 to 7
-    known: np.ndarray  # bool: Where there is a point that cannot belong to the group itself
+    known: np.ndarray  # bool: Where there is a point that is not too near to the place
 
     def plane(self) -> tuple[np.ndarray, np.ndarray]:
-        """Return the plane through most of the heights round each place (rise to east and north,
-        metres above the place), and the heights above it.
+        """Return the plane through most of the heights round each place (slopes to east and north,
+        metres above the place), and the heights of its neighbours above the plane.
         """
-        # Least squares with weights by Geman and McClure, from a level plane under most heights.
+        # Least squares with the weights of Geman and McClure, from a level plane under most.
         count = len(self.z)
         plane = np.zeros((count, 3), dtype=np.float32)
         plane[:, 2] = np.nan_to_num(self._quantile(self.z, _START), posinf=0.0)
@@ -63,13 +60,15 @@ class Surroundings(NamedTuple):
         return plane, self._above(plane)
 
     def median(self, values: np.ndarray, counted: np.ndarray | None = None) -> np.ndarray:
-        """Return the median of some values round each place, the lower of two; infinite where there
-        are none.
+        """Return the median of the values at neighbours of each place, the lower one of two;
+        infinite without any.
         """
         return self._quantile(values, 0.5, counted)
 
     def sides_with(self, wanted: np.ndarray) -> np.ndarray:
-        """Return on how many sides of each place at least half of the heights are wanted."""
+        """Return the number of sides of each place on which at least half of the neighbours are
+        wanted.
+        """
         sides = np.zeros(len(wanted), dtype=np.int8)
         for side in range(SIDES):
             here = self.known & (self.side == side)
@@ -84,7 +83,7 @@ class Surroundings(NamedTuple):
     def _quantile(
         self, values: np.ndarray, share: float, counted: np.ndarray | None = None
     ) -> np.ndarray:
-        """Return a quantile of some values of each place; infinite where there are none."""
+        """Return a quantile of the values at neighbours of each place; infinite without any."""
         counted = self.known if counted is None else counted
         ordered = np.sort(np.where(counted, values, np.inf), axis=1)
         last = np.maximum(np.count_nonzero(counted, axis=1) - 1, 0)
@@ -99,15 +98,15 @@ class Surroundings(NamedTuple):
             right[:, i, 0] = np.einsum("pn,pn->p", weighted, self.z)
             for k in range(i, 3):
                 normal[:, i, k] = normal[:, k, i] = np.einsum("pn,pn->p", weighted, columns[k])
-        # So that a place with hardly any neighbours has a plane as well.
+        # With these terms, a place with fewer than three neighbours has a plane as well.
         normal += 1e-6 * np.eye(3)
         return np.linalg.solve(normal, right)[:, :, 0].astype(np.float32)
 
 
 class LowestOfCells(NamedTuple):
-    """Where the lowest point of each cell lies, on grids with a margin of unknown cells."""
+    """The coordinates of the lowest point of each cell, on grids with a margin of empty cells."""
 
-    # float64 (rows, columns): NaN where there is none.
+    # float64 (rows, columns): NaN in empty cells.
     x: np.ndarray
     y: np.ndarray
     z: np.ndarray
@@ -127,7 +126,9 @@ class LowestOfCells(NamedTuple):
         return cls(x, y, z, margin)
 
     def pits(self, cells: Cells, depth: float, reach: int) -> np.ndarray:
-        """Return the cells that a closing raises, the deepest or lowest within reach only."""
+        """Return the cells that a closing raises by more than a depth in metres; of those within
+        `reach` cells only the deepest and the lowest.
+        """
         inner = (slice(self.margin, -self.margin),) * 2
         known = np.isfinite(self.z[inner])
         filled = inpaint(self.z[inner], first=cells.first)
@@ -143,8 +144,10 @@ class LowestOfCells(NamedTuple):
         return (row + self.margin) * self.z.shape[1] + column + self.margin
 
     def _beside_centre(self, cells: Cells, filled: np.ndarray) -> np.ndarray:
-        """Return how much lower or higher than the centre of its cell the lowest point lies."""
-        # On a slope that is one at the lower side, by chance nearer or farther.
+        """Return how many metres the terrain at each lowest point is higher than at the centre of
+        its cell.
+        """
+        # On a slope, the lowest point lies on the lower side of the cell, near its border or not.
         from scipy import ndimage
 
         inner = (slice(self.margin, -self.margin),) * 2
@@ -159,8 +162,8 @@ class LowestOfCells(NamedTuple):
         return np.nan_to_num(east * x + north * y)
 
     def around(self, places: np.ndarray, width: float) -> Iterator[Surroundings]:
-        """Yield the lowest points round cells (indices as `pits` returns them), some cells at a
-        time, but for points nearer than a width in metres.
+        """Yield the surroundings of cells (indices as of `pits`), some cells at a time, without
+        points nearer than `width` metres.
         """
         steps = np.arange(-self.margin, self.margin + 1)
         row, column = (axis.ravel() for axis in np.meshgrid(steps, steps, indexing="ij"))

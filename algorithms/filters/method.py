@@ -1,6 +1,6 @@
-"""The description of a ground filter, for the command line, the dialogs and the runs.
+"""Ground filters as the command line, the dialogs and the runs know them.
 
-Warnings have no figures that differ from block to block, so that equal texts are shown once.
+Warnings contain no figures that differ from block to block, so that each is shown only once.
 """
 
 from __future__ import annotations
@@ -31,20 +31,20 @@ TERRAINS = {
 NOT_GROUND = 100
 # Usual width in metres of the largest building; few are wider.
 _USUAL_OBJECT = 50.0
-_CELL = 1.0  # metres: side of the cells in which ground is counted
-_LEAST_GROUND = 0.02  # least usual share of the cells with points that have ground
-# If more than this share of the points is ground, cells need not be counted: enough have ground.
+# A warning says that there is hardly any ground if fewer than this share of the cells with points
+# have ground; side of the cells in metres.
+_LEAST_GROUND = 0.02
+_CELL = 1.0
+# Share of ground among the points from which on the cells need not be counted.
 _SURELY_ENOUGH = 0.1
 
 
 class Found(NamedTuple):
-    """What a method finds."""
+    """The result of a method."""
 
     ground: np.ndarray  # bool (n,): Which points are ground
-    # bool (n,) or None: Which points were left out as low outliers; None for none.
-    low: np.ndarray | None
-    # Which rule decided the cell of each point, if that was asked for.
-    decided: Decisions | None = None
+    low: np.ndarray | None  # bool (n,): Which were left out as low noise; None for none
+    decided: Decisions | None = None  # None if that was not asked for
 
 
 class Decisions(NamedTuple):
@@ -62,18 +62,18 @@ class Method(NamedTuple):
 
     name: str  # as on the command line
     label: str  # as in the toolbox
-    # Its `ParameterSet`. It has a field `preset` with a choice ``automatic``.
+    # The class of its parameters, with a field `preset` that has a choice ``automatic``.
     parameters: type[ParameterSet]
     # ``pipeline(points, parameters, progress)`` returns the rules for some points, and tells the
     # progress which values were chosen.
     pipeline: Callable[..., Pipeline]
-    # ``reach(parameters)``, the distance in metres within which points affect each other.
+    # ``reach(parameters)`` returns the distance in metres within which points affect each other.
     reach: Callable[..., float]
-    # ``largest_object(parameters)``, the width in metres of the largest object that is searched.
+    # ``largest_object(parameters)`` returns the width in metres of the largest object that is
+    # removed.
     largest_object: Callable[..., float]
-    size_parameter: str  # name of the parameter with this width
-    # The preset that does the same as the original program or paper, without additions.
-    classic: str
+    size_parameter: str  # name of the parameter for this width
+    classic: str  # the preset with the rules of the original program or paper only
     presets: Mapping[str, NamedTuple]  # the values of each preset that has some, for the help
     takes_known_ground: bool = False  # whether the pipeline starts from points of known ground
 
@@ -86,8 +86,8 @@ class Method(NamedTuple):
         multi_return: np.ndarray | None = None,
         explains: bool = False,
     ) -> Found:
-        """Return which points are ground, without low noise (except by a classic preset), given
-        known ground and points of pulses with several returns.
+        """Return which points are ground, given those of `known` ground and those of pulses with
+        several returns.
         """
         pipeline = self.pipeline(points, parameters, progress)
         state = pipeline.run(points, progress, known, multi_return, explains)
@@ -112,8 +112,8 @@ class Method(NamedTuple):
         return vars(parameters)["preset"] == self.classic
 
     def largest(self, parameters: ParameterSet) -> tuple[float, str]:
-        """Return the width in metres of the largest expected object, a usual one if the user gave
-        none, and the parameter's name.
+        """Return the width in metres of the largest expected object (a usual one if the user gave
+        none) and the label of its parameter.
         """
         labels = {declaration.name: declaration.label for declaration in parameters.declarations()}
         size = self.largest_object(parameters)
@@ -145,14 +145,14 @@ def of_metres(
 
 
 def as_given(preset: _Preset, parameters: ParameterSet) -> _Preset:
-    """Return the values of a preset, with those that the parameters have in place of its own."""
+    """Return the values of a preset, replaced by those of parameters that are not empty."""
     given = {name: vars(parameters)[name] for name in preset._fields}
     return preset._replace(**{name: value for name, value in given.items() if value is not None})
 
 
 def warn_of_extent(points: Points, largest: float, name: str, progress: Progress) -> None:
-    """Warn if the survey is no wider than the largest expected object, in metres: it has no ground
-    on two sides of that; `name` is that of its parameter.
+    """Warn if the points extend less than the largest expected object, which may then have no
+    ground on two sides; `name` is the label of the parameter for its width.
     """
     if min(points.sides) < largest:
         progress.warning(
@@ -164,7 +164,7 @@ def warn_of_extent(points: Points, largest: float, name: str, progress: Progress
 
 
 def warn_of_little_ground(points: Points, ground: np.ndarray, progress: Progress) -> None:
-    """Warn if hardly any of the cells with points have ground."""
+    """Warn if very few of the cells with points have ground."""
     if np.count_nonzero(ground) >= _SURELY_ENOUGH * points.count:
         return
     cells = Cells.over(points, _CELL)

@@ -1,7 +1,7 @@
-"""Rules, and the pipelines of rules that a ground filter is.
+"""Ground filters as pipelines of rules.
 
-A rule decides something about the cells or the points that earlier rules have left open. A pipeline
-runs its rules in the order of their stages. Each rule can be left out by its name.
+A rule decides about cells or points on which earlier rules have not decided. A pipeline runs its
+rules in the order of their stages. Each rule can be left out by its name.
 """
 
 from __future__ import annotations
@@ -21,8 +21,10 @@ from ..core.progress import SILENT, Progress
 from ..core.threads import in_threads
 from .state import GridState, RuleTime, State
 
-_MOST_OUTLIERS = 0.02  # largest usual share of low outliers among the lowest points
-_LEAST_CELLS = 500  # for which a share means something
+# A warning tells of low outliers if they are more than this share of the lowest points, and these
+# are so many that a share means something.
+_MOST_OUTLIERS = 0.02
+_LEAST_CELLS = 500
 
 
 class Stage(Enum):
@@ -41,10 +43,10 @@ class Stage(Enum):
 
 @dataclass(frozen=True)
 class Rule:
-    """One rule of a filter: named values, and what it does with them."""
+    """One rule of a filter, whose fields are its values."""
 
-    # A rule can have other rules as fields: its exceptions, for example. If such a field is None,
-    # the rule works without it.
+    # Fields can be other rules, such as exceptions of this one. If such a field is None, the rule
+    # works without it.
 
     stage: ClassVar[Stage]  # when the rule is applied
     writes: ClassVar[tuple[str, ...]] = ()  # fields of the state that the rule changes
@@ -74,7 +76,7 @@ class Rule:
 
 @dataclass(frozen=True)
 class PointRule(Rule):
-    """A rule for the points."""
+    """A rule that is applied to the state of a pipeline as a whole."""
 
     def apply(self, state: State) -> None:
         """Change the state by this rule."""
@@ -83,9 +85,7 @@ class PointRule(Rule):
 
 @dataclass(frozen=True)
 class GridRule(Rule):
-    """A rule for the cells of a grid."""
-
-    # If there are several grids, it is applied to each of them.
+    """A rule that is applied to each grid of the state."""
 
     def apply(self, grid: GridState, progress: Progress) -> None:
         """Change the state of one grid by this rule."""
@@ -126,8 +126,8 @@ class Pipeline:
         multi_return: np.ndarray | None = None,
         explains: bool = False,
     ) -> State:
-        """Return what the rules find out about the points (`explains`: and which decided each
-        cell); BareEarthError if they spread too far for a grid or hold no ground.
+        """Return the state after all rules, with the rule that decided each cell if it `explains`;
+        BareEarthError if the points spread too far for a grid or there is no ground.
         """
         state = State(points, progress, known_ground, multi_return)
         outliers = [n for n, rule in enumerate(self.rules) if rule.stage is Stage.OUTLIERS]
@@ -168,11 +168,9 @@ def _apply_to_grids(rule: GridRule, state: State, progress: Progress) -> None:
     in_threads(apply, range(count))
 
 
-def _warn_of_outliers(count: int, left: np.ndarray, progress: Progress) -> None:
-    """Warn if many of the `count` lowest points are taken for low outliers, which are NaN in
-    `left`.
-    """
-    outliers = count - np.count_nonzero(np.isfinite(left))
+def _warn_of_outliers(count: int, heights: np.ndarray, progress: Progress) -> None:
+    """Warn if many of the `count` lowest points are low outliers, without a height."""
+    outliers = count - np.count_nonzero(np.isfinite(heights))
     if count >= _LEAST_CELLS and outliers > _MOST_OUTLIERS * count:
         progress.warning(
             f"More than {100 * _MOST_OUTLIERS:g} % of the lowest points are taken for low outliers."

@@ -16,24 +16,21 @@ from ..grids.planes import means_and_moments, plane_slopes
 if TYPE_CHECKING:
     from scipy.spatial import cKDTree
 
-_NEIGHBOURS = 16  # nearest neighbours that are used
-LEAST = 4  # of them on a side, for a plane
-# Number of sides, in evenly spread directions.
-_SIDES = 8
-# The columns of x, y and z among the sums, of which the products are summed up as well.
+_NEIGHBOURS = 16  # number of nearest neighbours that are used
+LEAST = 4  # least number of neighbours on a side for a plane
+_SIDES = 8  # number of sides, in evenly spread directions
+# The terms of a plane are 1, x, y, z and the products of these pairs of them.
 _PRODUCTS = ((1, 1), (1, 2), (2, 2), (1, 3), (2, 3), (3, 3))
 # Points that are judged at a time, so few that their neighbours stay in the processor's cache.
 _AT_ONCE = 1 << 11
-# Points of a leaf of the tree: more than usual, because there are few queries.
-_LEAF = 32
-# Square metres that are added to the variances of the neighbours' places, so that there is always a
-# plane.
+_LEAF = 32  # points of a leaf of the tree: many, because there are few queries
+# Square metres that are added to the variances of x and y of neighbours, so that these always have
+# a plane.
 _STIFFNESS = 0.1
-# Cells on each side of that of a place in which neighbours are looked for first.
-_STENCIL = 3
-# Most cells for each ground point; with more, neighbours are found by a tree alone.
+_STENCIL = 3  # neighbours are first searched in the cells up to so many rows and columns away
+# Most cells for each ground point. With more, neighbours are found only by the tree.
 _MOST_VOID = 8
-_LAST_BITS = 63  # hold the number of one of 49 cells
+_LAST_BITS = 63  # bits that hold the number of one of 49 cells
 _ANGLES = 2.0 * np.pi * np.arange(_SIDES) / _SIDES
 
 # Takes a part of the points and the plane of one side of each: rise, slopes to the east and to the
@@ -43,15 +40,14 @@ Enough = Callable[[slice, np.ndarray, np.ndarray, np.ndarray, np.ndarray], np.nd
 
 
 class Sides:
-    """The ground round points, separately for each side."""
-
-    # `ground`: Points of the ground.
-    # `reach`: Metres within which ground points are neighbours.
-    # `apart`: Metres within which they are none, as they may belong to the same plant.
-    # `cells`: Cells of which the ground has the lowest points, in their order.
+    """The planes through the ground round points, one for each side."""
 
     def __init__(
-        self, ground: Points, reach: float, apart: float = 0.0, cells: Cells | None = None
+        self,
+        ground: Points,
+        reach: float,  # metres from which on ground points are no neighbours
+        apart: float = 0.0,  # metres up to which they are none: they may be on the same plant
+        cells: Cells | None = None,  # cells whose lowest points the ground is, in their order
     ) -> None:
         self._ground, self._reach, self._apart = ground, reach, apart
         self._of_cells = None
@@ -60,7 +56,7 @@ class Sides:
 
     @cached_property
     def _tree(self) -> cKDTree:
-        """The ground, for neighbours that are not found by cell."""
+        """A tree of the ground points, for neighbours that are not found by cell."""
         from scipy.spatial import cKDTree
 
         places = np.column_stack((self._ground.x, self._ground.y))
@@ -70,8 +66,8 @@ class Sides:
         self, points: Points, own: bool, enough: Enough | None = None
     ) -> tuple[np.ndarray, np.ndarray]:
         """Return how many metres points lie above the plane of each side, NaN with too few
-        neighbours, and its misfit, both (n, 8); `own` points are ground, and not their own
-        neighbours.
+        neighbours, and its misfit, both (n, 8); `own` points are ground, but not neighbours of
+        themselves.
         """
         rise, _, _, misfit = self.planes(points, own, enough)
         return rise, misfit
@@ -79,9 +75,9 @@ class Sides:
     def planes(
         self, points: Points, own: bool = False, enough: Enough | None = None
     ) -> tuple[np.ndarray, ...]:
-        """Return the planes on all sides of points: how many metres these lie above them, their
-        slopes to the east and to the north, rise over run, and their misfits, all (n, 8); NaN where
-        the plane of the first side is `enough`.
+        """Return for each side how many metres points lie above its plane, the slopes of this to
+        the east and to the north (rise over run), and its misfit, all (n, 8); NaN on further sides
+        of points for which the first is `enough`.
         """
         found = np.full((4, points.count, _SIDES), np.nan)
         if self._ground.count and points.count:
@@ -103,8 +99,8 @@ class Sides:
         return tuple(found)
 
     def _nearest(self, points: Points, own: bool) -> tuple[np.ndarray, np.ndarray]:
-        """Return the distances and the numbers of the neighbours of points, shape (17, n), the
-        farthest one last.
+        """Return the distances and the indices of the 17 nearest ground points of points, (17, n),
+        in ascending order.
         """
         places, count = np.column_stack((points.x, points.y)), _NEIGHBOURS + 1 + own
         if self._of_cells is None or own:
@@ -120,12 +116,12 @@ class Sides:
         return distance, numbers
 
     def _neighbours(self, points: Points, own: bool) -> tuple[np.ndarray, np.ndarray]:
-        """Return the terms of which sums give planes, shape (10, 16, n), for the neighbours of
-        points, and which of these count, shape (16, n).
+        """Return the terms of planes for the neighbours of points, (10, 16, n), and which of these
+        neighbours count, (16, n).
         """
         distance, numbers = self._nearest(points, own)
-        # If several are equally far away, the tree may return any of them. Then none of them
-        # counts.
+        # Of several points that are as far away as the last one, the tree returns any, so that none
+        # of them counts.
         there = (distance[:-1] < distance[-1]) & (distance[:-1] >= self._apart)
         numbers = np.where(there, numbers[:-1], 0)
         terms = np.empty((10, *numbers.shape))
@@ -139,9 +135,9 @@ class Sides:
 
 
 class _OfCells(NamedTuple):
-    """Points of which each cell has one at most: found by cell, in a quarter of a tree's time."""
+    """Points of which each cell has one at most: found by cell, four times as fast as by a tree."""
 
-    # With a margin of empty cells: number, and x and y, which are infinite where there is none.
+    # Grids with a margin of empty cells: indices of points, and x and y, infinite in empty cells.
     number: np.ndarray
     x: np.ndarray
     y: np.ndarray
@@ -159,12 +155,12 @@ class _OfCells(NamedTuple):
 
     @property
     def certain(self) -> float:
-        """Metres within which no point is missed."""
+        """The distance in metres within which `nearest` misses no point."""
         return _STENCIL * self.cells.size
 
     def nearest(self, places: Points, count: int) -> tuple[np.ndarray, np.ndarray]:
-        """Return the distances and the numbers of points near places, shape (n, count), the
-        farthest one last.
+        """Return the distances and the indices of the `count` nearest points of places among those
+        in the cells round each, (n, count), in ascending order.
         """
         width = self.x.shape[1]
         steps = np.arange(2 * _STENCIL + 1)
@@ -176,8 +172,8 @@ class _OfCells(NamedTuple):
             beside -= place[:, None]
             beside *= beside
         squared += north
-        # As whole numbers, squares are in the same order. Their last bits hold the number of the
-        # cell, because to sort values takes a third of the time of sorting their places.
+        # The bits of squares, read as whole numbers, have the same order. The last bits hold the
+        # number of the cell, because a sort takes a third of the time of an argsort.
         keys = squared.view(np.int64) & ~_LAST_BITS
         keys |= np.arange(len(steps) ** 2)
         keys.sort(axis=1)
@@ -194,14 +190,14 @@ def _beside(terms: np.ndarray, there: np.ndarray, angles: np.ndarray) -> np.ndar
 
 
 def _planes(sums: np.ndarray) -> tuple[np.ndarray, ...]:
-    """Return how far (0, 0, 0) lies above planes, their slopes and misfits, from sums over
-    neighbours.
+    """Return how far (0, 0, 0) lies above planes, their two slopes and their misfits, from the sums
+    of the terms of neighbours.
     """
     count, *rest, zz = sums
     total = np.maximum(count, 1.0)
     x, y, z, xx, xy, yy, xz, yz = means_and_moments(total, *rest)
     zz = zz / total - z * z
-    # A small term on the diagonal, because neighbours on one line have no slope across it.
+    # A small term is added, because neighbours on one line have no slope across this line.
     east, north = plane_slopes(xx + _STIFFNESS, xy, yy + _STIFFNESS, xz, yz)
     rise = east * x + north * y - z
     square = zz - 2.0 * (east * xz + north * yz)

@@ -27,14 +27,14 @@ from .stages.seeds import LowestPoints, Seeds
 from .stages.tolerance import ToleranceSurface
 from .whitebox import StandsAbove
 
-# Search radii within which points affect each other. On one scale, this is just what erosion,
-# dilation and comparison need.
+# The distance within which points affect each other: in search radii (those on one scale are for
+# erosion, dilation and comparison), in widths of the largest building, and the least value in
+# metres if the radius follows from the points.
 _REACH_RADII = 5.0
 _REACH_RADII_ON_ONE_SCALE = 3.01
-_LEAST_REACH = 100.0  # metres: least such distance if the radius follows from the points
-# This distance, as a multiple of the largest building.
 _REACH_BUILDINGS = 2.0
-_WHITEBOX_RADIUS = 2.0
+_LEAST_REACH = 100.0
+_WHITEBOX_RADIUS = 2.0  # metres
 # The preset with the rules of Whitebox's filter.
 CLASSIC = "whitebox"
 # Width of the largest building in search radii, if the radius is given.
@@ -42,7 +42,7 @@ _WIDEST = 2.0
 
 
 class OneScale(NamedTuple):
-    """The values of Whitebox's filter, as of `ManyScales`."""
+    """The values of Whitebox's filter, named as those of `ManyScales`."""
 
     search_radius: float = _WHITEBOX_RADIUS
     slope_threshold: float = 45.0
@@ -53,12 +53,10 @@ class ManyScales(NamedTuple):
     """The values of a preset that compares on many scales."""
 
     search_radius: float  # least search radius in metres
-    slope_threshold: float  # in degrees
-    # In metres.
-    height_threshold: float
-    max_building_size: float
-    # Least cell size in metres. It grows where points are sparse.
-    cell_size: float = 1.0
+    slope_threshold: float  # degrees
+    height_threshold: float  # metres
+    max_building_size: float  # metres
+    cell_size: float = 1.0  # least cell size in metres; cells are larger where points are sparse
 
 
 MANY_SCALES = {
@@ -172,7 +170,7 @@ class SlopeFilter(ParameterSet):
 
 
 def largest_object(parameters: SlopeFilter) -> float:
-    """Return the width in metres of the largest building that is searched."""
+    """Return the width in metres of the largest building that is removed."""
     given = parameters.search_radius
     if parameters.preset == CLASSIC:
         return _WIDEST * (given or _WHITEBOX_RADIUS)

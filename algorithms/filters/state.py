@@ -1,4 +1,4 @@
-"""What a pipeline knows of the points and of the cells so far."""
+"""What the rules of a pipeline have found out about the points and about grids of cells."""
 
 from __future__ import annotations
 
@@ -14,39 +14,35 @@ from ..grids.cells import Cells, first_of_each, spacing
 from ..grids.morphology import closing_by_square
 from .height_grid import HeightGrid
 
-# Least spacing of points in metres; a smaller one counts as this.
-_LEAST_SPACING = 0.01
-# Metres between the points of clouds from images, at most, whose pulses have one return only.
-_IMAGE_SPACING = 0.22
-# Gaps up to twice this width, in cells, count as surveyed.
-_GAP = 4
+_LEAST_SPACING = 0.01  # least spacing of points in metres; a smaller one counts as this
+_IMAGE_SPACING = 0.22  # largest spacing in metres of clouds from images
+_GAP = 4  # half the width in cells of the largest gaps that count as surveyed
 
 
 @dataclass(frozen=True)
 class RuleTime:
     """How long a rule took."""
 
-    # Names of the stage and of the rule.
-    stage: str
-    name: str
+    stage: str  # name of the stage
+    name: str  # name of the rule
     seconds: float  # wall-clock time
 
 
 @dataclass
 class GridState:
-    """The lowest points of a grid of cells, and what is known of the cells."""
+    """The lowest points of the cells of a grid, and what is known of these cells."""
 
     points: Points  # the points that take part
     spacing: float  # usual distance between points in metres
     cells: Cells  # the cells
     shift: float  # metres by which the cells begin farther west and south
     lowest: np.ndarray  # intp (occupied,): The lowest point of each occupied cell
-    heights: HeightGrid  # heights of the lowest points, without low outliers
+    heights: HeightGrid  # heights of the lowest points; NaN for low outliers
     woods: np.ndarray  # bool (rows, columns): Cells under trees
     raised: np.ndarray  # bool (rows, columns): Cells that stand out of the ground, so far
-    # bool (rows, columns): Cells of objects with drops all round; and of regions that are too low
-    # for their width to be objects for certain.
-    objects: np.ndarray
+    objects: np.ndarray  # bool (rows, columns): Cells of objects with drops all round
+    # bool (rows, columns): Cells of regions that are too low for their width to be objects for
+    # certain.
     plateaus: np.ndarray
     from_images: bool = False  # as in `State`
 
@@ -78,8 +74,8 @@ class GridState:
 
     @cached_property
     def filled(self) -> np.ndarray:
-        """Heights as float32, gaps filled smoothly, but beyond the survey those of its border, so
-        that a roof there gets no wider.
+        """Heights as float32, with gaps filled smoothly; beyond the survey those of its border, so
+        that a roof at the border does not become wider.
         """
         from scipy import ndimage
 
@@ -93,18 +89,18 @@ class GridState:
 
     @cached_property
     def surface(self) -> np.ndarray:
-        """Heights through the cells that are ground when this is used first, gaps filled."""
+        """Heights of the cells that are ground when this is first used, with gaps filled."""
         return self.heights.where(~self.raised).filled()
 
     def take_again(self, points: Points, changed: np.ndarray) -> None:
-        """Take the lowest points again in cells of which some points have changed."""
+        """Take the lowest points anew in the cells of points that have `changed`."""
         self.points = points
         cells = np.zeros(self.cells.rows * self.cells.columns, dtype=bool)
         cells[self.cells.index[changed]] = True
         inside = self.cells.points_in(cells)
         inside = inside[np.isfinite(points.z[inside])]
-        left = points.take(inside)
-        first = first_of_each(self.cells.index[inside], cells.size, left.z, left.x, left.y)
+        x, y, z = points.take(inside)
+        first = first_of_each(self.cells.index[inside], cells.size, z, x, y)
         lowest = np.concatenate((self.lowest[~cells[self.cell]], inside[first]))
         self.lowest = lowest[np.argsort(self.cells.index[lowest])]
         heights = self.heights.values.ravel()
@@ -112,28 +108,25 @@ class GridState:
         heights[self.cell] = points.z[self.lowest]
 
     def remove(self, outliers: np.ndarray) -> None:
-        """Take the lowest points of some cells for low outliers."""
+        """Take the lowest points of a mask of cells for low outliers."""
         self.heights.values[outliers] = np.nan
         self.__dict__.pop("surveyed", None)
 
 
 @dataclass
 class State:
-    """What the rules of a pipeline have found out."""
+    """What the rules of a pipeline have found out about the points."""
 
     points: Points  # the points that take part; low noise is infinitely high
     progress: Progress  # receives progress and messages of the rule that is applied
-    known_ground: np.ndarray | None = None  # bool or None: Which points are known to be ground
-    # bool (n,) or None: Which points are of pulses with several returns.
-    multi_return: np.ndarray | None = None
-    # bool (n,) or None: Points that are left out as low noise; None for none.
-    low_noise: np.ndarray | None = None
+    known_ground: np.ndarray | None = None  # bool (n,): Which points are known to be ground
+    multi_return: np.ndarray | None = None  # bool (n,): Which are of pulses with several returns
+    low_noise: np.ndarray | None = None  # bool (n,): Which are left out as low noise
     grids: list[GridState] = field(default_factory=list)  # one or two grids of lowest points
-    # intp: Indices of the points that are taken for ground, and of others that may join them.
+    # intp (k,): Indices of the points that are taken for ground, and of others that may join them.
     seeds: np.ndarray = field(default_factory=lambda: np.empty(0, dtype=np.intp))
     waiting: np.ndarray = field(default_factory=lambda: np.empty(0, dtype=np.intp))
-    # float (rows, columns) or None: How much the mean surface of the seeds rises over a cell, in
-    # metres.
+    # float (rows, columns): Metres by which the mean surface of the seeds rises over a cell.
     rise: np.ndarray | None = None
     # float64 (rows, columns, 2): Lowest and highest height of ground points on the cells of the
     # first grid.
@@ -141,8 +134,8 @@ class State:
     # bool (n,): Which of `points` are ground.
     ground: np.ndarray = field(default_factory=lambda: np.empty(0, dtype=bool))
     times: list[RuleTime] = field(default_factory=list)  # how long each rule took
-    # int16 (rows, columns) or None: Number of the rule that decided each cell of the first grid;
-    # negative if it is not ground.
+    # int16 (rows, columns): Number, from 1, of the rule that decided each cell of the first grid;
+    # negative if the cell is not ground.
     decided: np.ndarray | None = None
     _was_ground: np.ndarray | None = None
     _noted: Cells | None = None
@@ -169,22 +162,22 @@ class State:
         return max(self.spacing, 1.0, self.grids[0].cells.size)
 
     def add_low_noise(self, found: np.ndarray) -> None:
-        """Let some points take no part from now on, but known ground."""
+        """Leave some points out from now on, except known ground."""
         if self.known_ground is not None:
             found = found & ~self.known_ground
         if not found.any():
             return
         self.low_noise = found if self.low_noise is None else self.low_noise | found
-        # Infinitely high, they are never the lowest, and not close to any surface.
-        noise, heights = np.flatnonzero(found), self.points.z.copy()
+        # Infinitely high, they are never the lowest of a cell, and not close to any surface.
+        before, noise, heights = self.points, np.flatnonzero(found), self.points.z.copy()
         heights[noise] = np.inf
-        spacing_of, self.points = self.points, Points(self.points.x, self.points.y, heights)
-        self.points.found.update(spacing_of.found)
+        self.points = Points(before.x, before.y, heights)
+        self.points.found.update(before.found)  # such as the spacing
         in_threads(lambda grid: grid.take_again(self.points, noise), self.grids)
 
     def codes(self, not_ground: int) -> tuple[np.ndarray, float]:
-        """Return the number of the rule that decided the cell of each point, plus `not_ground`
-        where that is not ground, and the cell size.
+        """Return the number of the rule that decided the cell of each point, plus `not_ground` if
+        the cell is not ground, and the side of a cell in metres.
         """
         if self.decided is None:
             return np.zeros(self.points.count, dtype=np.uint8), 1.0
@@ -207,7 +200,7 @@ class State:
             self.decided = np.zeros(grid.cells.shape, dtype=np.int16)
             self._was_ground = ~grid.cells.occupied
         elif self._noted is not grid.cells:
-            # A rule has made a finer grid. Its cells are decided as those that held their points.
+            # A rule has made a finer grid, whose cells are decided as the wide ones were.
             wide, index = self.decided.ravel(), self._noted.index
             self.decided = np.zeros(grid.cells.shape, dtype=np.int16)
             self.decided.ravel()[grid.cells.index] = wide[index]

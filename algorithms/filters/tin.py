@@ -35,12 +35,10 @@ from .stages.shrubs import Shrubs
 from .stages.terrain import GentleBorder, GentleRegions
 from .stages.tolerance import PlainSurface, ToleranceSurface
 
-# Least spacing of points in metres; a smaller one counts as this.
-_LEAST_SPACING = 0.01
-# Square metres up to which what is tall and slender is an A-frame or a polytunnel, not a hill.
-_SMALL = 600.0
-# Points affect each other within this multiple of the largest building, and in any case within
-# these metres.
+_LEAST_SPACING = 0.01  # least spacing of points in metres; a smaller one counts as this
+_SMALL = 600.0  # square metres up to which a tall and slender region is an object, not a hill
+# The distance within which points affect each other, in widths of the largest building, and its
+# least value in metres.
 _REACH_BUILDINGS = 1.2
 _LEAST_REACH = 100.0
 # The preset with the rules of another program.
@@ -198,7 +196,7 @@ class TinDensification(ParameterSet):
 
 
 def largest_object(parameters: TinDensification) -> float:
-    """Return the width in metres of the largest building that is searched."""
+    """Return the width in metres of the largest building that is removed."""
     return parameters.max_building_size or PRESETS[parameters.preset].max_building_size
 
 

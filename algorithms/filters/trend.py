@@ -1,4 +1,4 @@
-"""The slope and the unevenness of the terrain in a height grid, in spite of walls and trees."""
+"""The slope and the unevenness of the terrain in a height grid, whatever walls and trees it has."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from ..grids.morphology import median_of_nine
 
 # Side in metres of the blocks whose median slope is the trend of the terrain.
 _BLOCK = 15.0
-# Number of differences along each axis of a block that are enough for its median.
+# Number of cells along each axis of a block that are used for its median.
 _SAMPLES = 7
 
 
@@ -33,9 +33,9 @@ class Trend:
 
     # The slope of a block of 15 m is the median slope between neighbouring cells, on which walls
     # and trees have no effect. Its unevenness is the median difference from this slope. Both are
-    # interpolated between the middles of the blocks, for some cells at a time, because whole grids
-    # would cost more than everything else. Blocks begin at multiples of their side in the grid of
-    # the CRS, in which `first` is row and column of the first cell.
+    # interpolated between the middles of the blocks, only for the cells that are asked for. Blocks
+    # begin at multiples of their side in the grid of the CRS, in which `first` is row and column of
+    # the first cell.
 
     def __init__(self, heights: np.ndarray, size: float, first: First = (0, 0)) -> None:
         self._size = size
@@ -57,7 +57,7 @@ class Trend:
         return np.stack([median_of_nine(grid) for grid in (slope, departure)])
 
     def of_rows(self, first: int, last: int) -> Rises:
-        """Return the rises at all cells of the rows from `first` on, before `last`."""
+        """Return the rises at all cells of the rows from `first` to before `last`."""
         rows = np.arange(first, last) + self._within[0]
         return self._rises(
             [_interpolated(values, rows, self._block, -2) for values in self._across]
@@ -90,7 +90,7 @@ class Trend:
 
 
 def _median(values: np.ndarray) -> np.ndarray:
-    """Return the median along the last axis, as `numpy.median` in a tenth of its time."""
+    """Return the median along the last axis, ten times as fast as `numpy.median`."""
     ordered = np.sort(values, axis=-1)
     middle, is_odd = divmod(values.shape[-1], 2)
     if is_odd:
@@ -101,8 +101,8 @@ def _median(values: np.ndarray) -> np.ndarray:
 def between_blocks(
     values: np.ndarray, block: int, rows: np.ndarray, columns: np.ndarray
 ) -> np.ndarray:
-    """Interpolate values (..., block rows, block columns) at the middles of blocks bilinearly to
-    cells, counted from the first cell of the first block.
+    """Interpolate values at the middles of blocks, (..., block rows, block columns), bilinearly to
+    rows and columns of cells, counted from the first block.
     """
     return _interpolated(_interpolated(values, columns, block, -1), rows, block, -2)
 
@@ -131,7 +131,7 @@ def _at_places(values: np.ndarray, block: int, row: np.ndarray, column: np.ndarr
 def _neighbours(
     cells: np.ndarray, block: int, count: int, kind: np.dtype
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return the two blocks between whose middles each cell lies, and the second's weight."""
+    """Return the two blocks between whose middles each cell lies, and the weight of the second."""
     place = np.clip((cells + 0.5) / block - 0.5, 0.0, count - 1.0)
     first = np.minimum(place.astype(int), max(count - 2, 0))
     return first, np.minimum(first + 1, count - 1), (place - first).astype(kind)

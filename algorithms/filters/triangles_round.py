@@ -1,4 +1,4 @@
-"""The Delaunay triangle round places, from the vertices in the cells near each of them."""
+"""The Delaunay triangles that hold places, from the vertices in the cells near each place."""
 
 from __future__ import annotations
 
@@ -12,25 +12,26 @@ from ..core.threads import over_parts
 from ..grids.cells import Cells
 from ..tin.delaunay_walk import NOWHERE, enclosing_triangles, listed, picked
 
-# Cells to each side of a place in which its triangle is searched, one after the other.
+# Rows and columns to each side of a place whose vertices are searched for its triangle, in turn.
 _WINDOWS = (2, 4, 8)
 WIDEST = _WINDOWS[-1]
-_PLACES_A_PART = 1 << 14  # places that are looked at by one thread
-_TOGETHER = 1 << 17  # vertices near them that are looked at together
-_LEAST = 3  # vertices that can surround a place
+_PLACES_A_PART = 1 << 14  # places of a part, which one thread computes
+_TOGETHER = 1 << 17  # vertices near places that are searched at a time
+_LEAST = 3  # least number of vertices that can surround a place
 
 
 class CellVertices:
-    """Vertices, given by their indices in points, by the cells without a shift that hold them."""
+    """Vertices, given by their indices in points, by the cells that hold them."""
 
-    # A triangulation of them all takes ten times as long where few places are asked for.
+    # For few places, this takes a tenth of the time of a triangulation of all vertices. The cells
+    # must begin at multiples of their side.
 
     def __init__(self, points: Points, vertices: np.ndarray, cells: Cells) -> None:
         cell = cells.index[vertices]
         x, y, z = points.take(vertices)
         order = np.argsort(cell, kind="stable")
         cell = cell[order]
-        # Only the few cells with several are sorted by the places of these.
+        # In the few cells with several vertices, these are sorted by their places.
         equal = np.flatnonzero(cell[1:] == cell[:-1])
         shared = np.union1d(equal, equal + 1)
         in_shared = order[shared]
@@ -38,19 +39,19 @@ class CellVertices:
             np.lexsort((z[in_shared], y[in_shared], x[in_shared], cell[shared]))
         ]
         x, y, self._vertex = x[order], y[order], vertices[order]
-        # Of several at one place, the lowest.
+        # Of several vertices at one place, only the lowest is kept.
         first = np.ones(len(order), dtype=bool)
         first[1:] = (np.diff(x) != 0.0) | (np.diff(y) != 0.0)
         cell, self._vertex = cell[first], self._vertex[first]
-        # At the end what stands for a missing vertex.
+        # The last element stands for a missing vertex.
         self._x, self._y = (np.append(axis[first], NOWHERE) for axis in (x, y))
         self._before = np.zeros(cells.rows * cells.columns + 1, dtype=np.intp)
         np.cumsum(np.bincount(cell, minlength=cells.rows * cells.columns), out=self._before[1:])
         self._cells = cells
 
     def triangles(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
-        """Return the corners of the triangle round each place, intp (q, 3), in ascending order;
-        -1 where vertices farther away, or beyond the cells, may matter.
+        """Return the corners of the triangle that holds each place, intp (q, 3), ascending; -1 if
+        they depend on vertices farther away, or beyond the cells.
         """
         corners = np.full((len(x), 3), -1, dtype=np.intp)
         row, column = (
@@ -73,7 +74,7 @@ class CellVertices:
     def _near(
         self, asked: np.ndarray, row: np.ndarray, column: np.ndarray, reach: int
     ) -> Iterator[tuple[np.ndarray, np.ndarray]]:
-        """Yield places, some at a time, with the vertices within `reach` cells, (k, q)."""
+        """Yield some places (q,) at a time, with the vertices within `reach` cells, (k, q)."""
         width, lines = 2 * reach + 1, np.arange(-reach, reach + 1)[:, None]
         start = (row[asked] + lines) * self._cells.columns + column[asked] - reach
         first = self._before.take(start)
@@ -88,7 +89,7 @@ class CellVertices:
             yield asked[part], listed(first[:, part], count[:, part])
 
     def _found(self, x: np.ndarray, y: np.ndarray, vertices: np.ndarray, reach: int) -> np.ndarray:
-        """Return the corners round places from vertices (k, q) within `reach` cells, (q, 3)."""
+        """Return the corners (q, 3) of triangles of the vertices (k, q) within `reach` cells."""
         size = self._cells.size
         from_west, from_south = (places - np.floor(places / size) * size for places in (x, y))
         more = reach * size

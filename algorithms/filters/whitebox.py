@@ -1,8 +1,8 @@
-"""The rule of WhiteboxTools' LidarGroundPointFilter: points are compared with their neighbours.
+"""The rule of LidarGroundPointFilter of WhiteboxTools, which compares points with their neighbours.
 
-Neighbours are found by cells that hold about one point. An erosion of the lowest heights of cells
-covers those that lie wholly within the radius. Others are searched only if they can change the
-result, from their lowest point upwards.
+Neighbours are found by cells that hold about one point each. Of cells that lie wholly within the
+radius, an erosion of their lowest heights is enough. The points of cells that lie partly within it
+are compared, from the lowest upwards, only as long as they can change the result.
 """
 
 from __future__ import annotations
@@ -22,23 +22,23 @@ from ..grids.morphology import erosion
 from .pipeline import PointRule, Stage
 from .state import State
 
-_POINTS_A_STRIP = 150_000  # its arrays fit into the processor's cache
-# Radii: least width of a strip, because the points within a radius of it are read as well.
+_POINTS_A_STRIP = 150_000  # points of a strip, whose arrays fit into the processor's cache
+# Least width of a strip in radii, because the points within a radius of it are read as well.
 _LEAST_WIDTH = 8.0
-_MOST_CELLS_A_RADIUS = 48
-# Most cells for each point, or in all if that is more.
+_MOST_CELLS_A_RADIUS = 48  # most cells along a radius
+# Most cells for each point, and the number of cells that is allowed for few points.
 _MOST_CELLS_A_POINT = 4
 _ALWAYS_ALLOWED = 1_000_000
-# Bounds are widened by this, in cells, metres or radii, so that rounding never decides. Points are
-# compared without it.
+# Bounds are wider by this, in cells, metres or radii, so that rounding loses no neighbour. Points
+# are compared without it.
 _ROUNDING = 1e-5
-_PAIRS_A_STEP = 2_000_000  # pairs of points and their nearest ones that are looked up at once
-_GROWN_A_STEP = 20_000  # points whose radius grows at once
+_PAIRS_A_STEP = 2_000_000  # pairs of points and their nearest ones that are searched at a time
+_GROWN_A_STEP = 20_000  # points with a grown radius that are compared at a time
 
 
 @dataclass(frozen=True)
 class StandsAbove(PointRule):
-    """A point is ground unless it stands far above a neighbour, on one scale."""
+    """A point is ground unless it stands above a neighbour by a least height and slope."""
 
     stage: ClassVar = Stage.ACCEPTED
     writes: ClassVar = ("ground",)
@@ -48,7 +48,7 @@ class StandsAbove(PointRule):
     height: float  # height threshold in metres
     # Whether heights above a surface that follows the terrain are compared (white top-hat).
     top_hat: bool = True
-    # The radius of a point with fewer neighbours grows until it has this many.
+    # Least number of neighbours: the radius of a point with fewer grows until it has so many.
     min_neighbours: int = 0
 
     def apply(self, state: State) -> None:
@@ -60,14 +60,13 @@ class StandsAbove(PointRule):
 
 
 class Neighbours(NamedTuple):
-    """When a point stands far above a neighbour."""
+    """What neighbours are, and when a point stands far above one of them."""
 
-    radius: float  # metres; points at exactly this distance are neighbours
+    radius: float  # largest distance of a neighbour in metres
     height: float  # least difference in height in metres
-    # The rise over run must be more than this. The same neighbour must meet height and slope.
-    slope: float
-    # Whether heights above the opening are compared (white top-hat). The opening is the highest
-    # erosion among the neighbours.
+    slope: float  # rise over run that must be exceeded, by the same neighbour
+    # Whether heights above the opening are compared (white top-hat). The erosion at a point is the
+    # lowest height among its neighbours, the opening the highest erosion among them.
     top_hat: bool
 
     def is_broken(self, rise: np.ndarray, distance: np.ndarray | float) -> np.ndarray:
@@ -78,8 +77,8 @@ class Neighbours(NamedTuple):
 def stands_above(
     points: Points, rule: Neighbours, at_least: int = 0, progress: Progress = SILENT
 ) -> np.ndarray:
-    """Return which points (n,) stand far above a neighbour; one with fewer than `at_least`
-    neighbours is compared with its `at_least` nearest points, and all that are as near as these.
+    """Return which points (n,) stand far above a neighbour; those with fewer than `at_least`
+    neighbours are compared with so many nearest points, and with others that are as near.
     """
     neighbourhood, heights = _Neighbourhood(points, rule.radius, at_least), points.z
     if rule.top_hat:
@@ -93,10 +92,10 @@ def stands_above(
 
 
 class _Neighbourhood:
-    """The points within a radius of each point, or its nearest points if those are too few."""
+    """The points within a radius of each point, or its nearest points if there are too few."""
 
-    # If a point has fewer than `at_least` other points within the radius, the radius of this point
-    # grows until it has. Strips (from south to north) bound the memory.
+    # The radius of a point with fewer than `at_least` other points within it grows until it has so
+    # many. Points are worked on in strips, from south to north, to limit the memory.
 
     def __init__(self, points: Points, radius: float, at_least: int) -> None:
         self._points, self._radius = points, radius
@@ -134,7 +133,7 @@ class _Neighbourhood:
         sign: float,
         progress: Progress,
     ) -> None:
-        """Find the results (n,) strip by strip, with the values times a sign as heights."""
+        """Fill in the results of points (n,), with the values times a sign as heights."""
         caller = threading.get_ident()
 
         def call(parts: tuple[slice, slice]) -> None:
@@ -154,11 +153,11 @@ class _Neighbourhood:
         """Return the points with too few neighbours, and the radius of each that has enough."""
         if at_least < 1:
             return np.empty(0, dtype=np.intp), np.empty(0)
-        # Imported here, because this takes longer than to classify a million points.
+        # Imported only here, because that takes longer than to classify a million points.
         from scipy.spatial import cKDTree
 
         points, doubtful = self._points, np.arange(self._points.count)
-        # Points of one such cell are within the radius of each other.
+        # All points of a cell with this side are within the radius of each other.
         side = self._radius * (1.0 - _ROUNDING) / math.sqrt(2.0)
         if math.prod(points.sides) < _most_cells(points) * side**2:
             cells = Cells.over(points, side)
@@ -176,7 +175,7 @@ class _Neighbourhood:
         return doubtful[grown], radius[grown]
 
     def _grown_pairs(self) -> Iterator[tuple[np.ndarray, np.ndarray, np.ndarray]]:
-        """Yield the points whose radius grew, their neighbours, and the distances between, (k,)."""
+        """Yield points whose radius grew, their neighbours, and the distances of these, (k,)."""
         for part in parts_of(len(self._grown), _GROWN_A_STEP):
             point, radius = self._grown[part], self._grown_radius[part]
             places = np.column_stack(self._points.take(point)[:2])
@@ -192,15 +191,15 @@ class _Neighbourhood:
 class _Strip:
     """Points in the order of their cells and, within a cell, of their heights."""
 
-    # Results are asked of `count` points from `first` on: `asked` (count,) says which of them each
-    # result belongs to. `alive` is called several times a second.
+    # Results are wanted for `count` points from `first` on. `asked` (count,) is the number, from
+    # `first`, of the point of each result. `alive` is called several times a second.
 
     def __init__(
         self, points: Points, radius: float, first: int, count: int, alive: Callable[[], None]
     ) -> None:
         size = _cell_size(points, radius)
         cells, reach = Cells.over(points, size), math.ceil(radius / size + _ROUNDING)
-        # With a margin that no offset leaves.
+        # The grid has a margin, so that each offset leads to a cell of it.
         shape = cells.rows + 2 * reach, cells.columns + 2 * reach
         cell = cells.index + reach * (1 + shape[1] + 2 * (cells.index // cells.columns))
         order = np.lexsort((points.z, cell))
@@ -218,7 +217,8 @@ class _Strip:
         gap = size * np.hypot(np.maximum(np.abs(row) - 1, 0), np.maximum(np.abs(column) - 1, 0))
         touched = np.argsort(gap, kind="stable")[: np.count_nonzero(gap <= radius + _ROUNDING)]
         self._gaps, self._offsets = gap[touched], (row * shape[1] + column)[touched]
-        # The lowest of the cells that lie wholly within the radius, and of all that it touches.
+        # The lowest height in the cells that lie wholly within the radius, and in all that it
+        # touches.
         grid, inner = self._lowest.reshape(shape), radius / size - math.sqrt(2.0) - _ROUNDING
         self._is_inner = np.hypot(row, column)[touched] <= inner
         self._inner = self._points.z[self._own]
@@ -254,9 +254,11 @@ class _Strip:
     def _below(
         self, asked: np.ndarray, limit: np.ndarray, offsets: np.ndarray, fall: np.ndarray
     ) -> Iterator[tuple[np.ndarray, np.ndarray, np.ndarray]]:
-        """Yield those of `asked` (k,), their neighbours below `limit` (k,), and the distances."""
-        # The caller lowers the limit as it learns more. A cell is searched if its lowest point lies
-        # below the limit by more than the `fall` of its offset.
+        """Yield which of the `asked` points (k,) have a neighbour below their `limit` (k,), this
+        neighbour, and its distance.
+        """
+        # The caller lowers the limits meanwhile. A cell is searched if its lowest point lies below
+        # the limit by more than the `fall` of its offset.
         cell, point = self._cell[asked], self._own[asked]
         for offset, least in zip(offsets, fall):
             self._alive()
@@ -274,7 +276,7 @@ class _Strip:
 
 
 def _cell_size(points: Points, radius: float) -> float:
-    """Return the side of cells that hold about one point, but are not too many along a radius."""
+    """Return the side of cells that hold about one point each, if they are not too many."""
     coarse = Cells.over(points, max(radius, 1.0))
     apart = math.sqrt(np.count_nonzero(coarse.occupied) / points.count) * coarse.size
     least = math.sqrt(coarse.rows * coarse.columns / _most_cells(points)) * coarse.size
@@ -286,6 +288,6 @@ def _most_cells(points: Points) -> int:
 
 
 def _distance(points: Points, first: np.ndarray, second: np.ndarray) -> np.ndarray:
-    """Return the distances of some points (k,) from as many others in the plane, in metres."""
+    """Return the horizontal distances in metres between pairs of points, given by indices (k,)."""
     x, y = points.x[first] - points.x[second], points.y[first] - points.y[second]
     return np.sqrt(x * x + y * y)

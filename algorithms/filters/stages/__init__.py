@@ -28,7 +28,7 @@ def shared_pipeline(
     surface: tuple[Rule, ...] = (),
     accepted: tuple[Rule, ...] = (),
 ) -> Pipeline:
-    """Return the rules of all methods, with those of one method at the end of some stages."""
+    """Return the rules that all methods share, with those of one method among them."""
     return Pipeline(
         (
             lowest,

@@ -1,4 +1,4 @@
-"""Which points lie close to a surface given on a grid."""
+"""Which points are ground: those between two surfaces on a grid, or only their key points."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _IN_DOUBT = np.float32(0.005)
 
 @dataclass(frozen=True)
 class NearSurface(PointRule):
-    """Points between the limits of the heights of ground are ground."""
+    """A point between the lowest and the highest height of ground at its place is ground."""
 
     stage: ClassVar = Stage.ACCEPTED
     writes: ClassVar = ("ground",)
@@ -37,12 +37,12 @@ class NearSurface(PointRule):
 
 @dataclass(frozen=True)
 class OnlyKeyPoints(PointRule):
-    """Of the ground, only the points that a terrain model needs are taken."""
+    """Of the ground points, only the model key points stay ground."""
 
     stage: ClassVar = Stage.ACCEPTED
     writes: ClassVar = ("ground",)
 
-    closeness: ModelKeyPoints  # how close to their TIN all other ground points are
+    closeness: ModelKeyPoints  # how far other ground points may lie from the TIN of key points
 
     def apply(self, state: State) -> None:
         """Accept the key points only."""
@@ -60,25 +60,26 @@ def near_surface(
     """Return which points (n,) lie between the lower and the upper of two surfaces (rows, columns,
     2), in metres, bilinear between the centres of cells and level beyond them.
     """
-    # The extremes of both round a cell decide most points; only the others need the interpolation.
+    # For most points, the extremes of both surfaces round their cell are enough to decide. Only for
+    # the others the surfaces are interpolated.
     bounds = _bounds(limits)
-    near = np.empty(points.count, dtype=bool)
+    between = np.empty(points.count, dtype=bool)
 
     def decide(part: slice) -> None:
         z = points.z[part].astype(np.float32)
         least, sure_least, sure_most, most = bounds.take(cells.index[part], axis=0).T
-        open_ = (z >= least) & (z <= most)
-        sure = (z >= sure_least) & (z <= sure_most)
-        open_ = np.flatnonzero(open_ & ~sure) + part.start
-        near[part] = sure
-        north = points.y.take(open_) / cells.size - (cells.first_row + 0.5)
-        east = points.x.take(open_) / cells.size - (cells.first_column + 0.5)
+        possible = (z >= least) & (z <= most)
+        certain = (z >= sure_least) & (z <= sure_most)
+        doubtful = np.flatnonzero(possible & ~certain) + part.start
+        between[part] = certain
+        north = points.y.take(doubtful) / cells.size - (cells.first_row + 0.5)
+        east = points.x.take(doubtful) / cells.size - (cells.first_column + 0.5)
         least, most = _bilinear(limits, north, east)
-        z = points.z.take(open_)
-        near[open_] = (z >= least) & (z <= most)
+        z = points.z.take(doubtful)
+        between[doubtful] = (z >= least) & (z <= most)
 
     over_parts(decide, points.count, _POINTS_A_PART, progress)
-    return near
+    return between
 
 
 def _bilinear(
@@ -91,13 +92,13 @@ def _bilinear(
     west, right = _lower(east, columns)
     next_row, next_column = min(rows - 1, 1) * columns, min(columns - 1, 1)
 
-    def between(corner: np.ndarray) -> np.ndarray:
+    def at_row(corner: np.ndarray) -> np.ndarray:
         value = flat.take(corner, axis=0)
         return value + (flat.take(corner + next_column, axis=0) - value) * right
 
     corner = south * columns + west
-    south_side = between(corner)
-    values = south_side + (between(corner + next_row) - south_side) * up
+    south_side = at_row(corner)
+    values = south_side + (at_row(corner + next_row) - south_side) * up
     return values[:, 0], values[:, 1]
 
 
@@ -112,8 +113,8 @@ def _bounds(limits: np.ndarray) -> np.ndarray:
     """Return the lowest and the highest height of the lower, then of the upper surface round each
     cell, float32 (cells, 4).
     """
-    # Points between the second and the third lie between the surfaces, points outside the first and
-    # the fourth do not, and others are in doubt.
+    # A point between the second and the third height certainly lies between the surfaces. One below
+    # the first or above the fourth certainly does not. All others are doubtful.
     rows, columns, _ = limits.shape
     bounds = np.empty((rows * columns, 4), dtype=np.float32)
 

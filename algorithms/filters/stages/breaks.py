@@ -1,10 +1,10 @@
-"""Check the seeds of the ground against the planes through the ground on each side of them.
+"""Checks of the seeds by planes through the ground on each side of them.
 
-The lowest point of a cell may be a plant, or lie below the ground. And at a break (the edge of a
-terrace, a ridge, the top of a wall) morphology cuts off ground, because the surface through the
-ground all round a point is wrong there. But the plane of one side is right: it continues this
-ground to the point. A point above the planes of all sides is not ground; a point on the plane of
-one side may be ground.
+The lowest point of a cell may be a plant, or an outlier below the ground. At a break (the edge of a
+terrace, a ridge, the top of a wall), morphology cuts off ground, because a surface through the
+ground on all sides of a point is wrong there. The plane of one side is right: it continues the
+ground on this side to the point. So a point above the planes of all sides is not ground, and one on
+the plane of a side may be ground.
 """
 
 from __future__ import annotations
@@ -25,10 +25,11 @@ from ..side_planes import Sides
 from ..state import State
 from .seeds import DENSE_SPACING, openness
 
-# Seeds are neighbours within this multiple of their spacing, and in any case within these metres.
+# The distance within which seeds are neighbours, in spacings of the seeds, and its least value in
+# metres.
 _SPACINGS = 5.0
 _LEAST_REACH = 6.0
-# Half the width, in spacings, of the windows of a mean surface.
+# Half the side of the windows of a mean surface, in spacings of the seeds.
 _MEAN_SPACINGS = 1.5
 
 
@@ -38,16 +39,16 @@ def _reach(spacing: float) -> float:
 
 @dataclass(frozen=True)
 class Plants(PointRule):
-    """A seed above the planes of all sides is a plant; one far below all of them an outlier."""
+    """A seed above the planes of all sides is a plant, and one far below all is an outlier."""
 
     stage: ClassVar = Stage.SEEDS
     writes: ClassVar = ("seeds", "waiting", "rise")
 
-    # Metres above and below. For outliers the misfit of the plane is added; among plants it is
-    # large.
-    height: float = 0.1
+    height: float = 0.1  # least height of a plant above the planes in metres
+    # Least depth of an outlier below the planes in metres, beyond their misfit: planes through
+    # plants have a large one.
     depth: float = 0.7
-    where_dense: bool = True  # whether seeds are checked where points are closer than 0.17 m
+    where_dense: bool = True  # whether seeds of dense clouds are checked as well
 
     def apply(self, state: State) -> None:
         """Let the wrong seeds wait."""
@@ -69,8 +70,8 @@ class Plants(PointRule):
         allowed: np.ndarray,
         reach: float,
     ) -> np.ndarray:
-        """Return which seeds lie above the planes of all sides, or below all, beyond what their
-        place in the cell allows on a slope.
+        """Return which seeds are plants or outliers, among those whose distance from the mean
+        surface exceeds the rise that is allowed in each cell.
         """
         cell, z = cells.index[seeds], points.z[seeds]
         above, allowed = z - mean.ravel()[cell], allowed.ravel()[cell]
@@ -93,21 +94,19 @@ class Plants(PointRule):
 
 @dataclass(frozen=True)
 class LevelSeeds(PointRule):
-    """A waiting point on the plane of the seeds on one side is ground: a break."""
+    """A waiting point on open land is ground if it lies on the plane of the seeds on one side."""
 
-    # It is for grids with gaps between the seeds, in which breaks may be lost.
+    # This finds ground at breaks, in grids whose seeds have gaps there.
 
     stage: ClassVar = Stage.SEEDS
     writes: ClassVar = ("seeds", "waiting")
 
-    # Metres from the plane within which a point joins, and the largest misfit of that plane.
-    level: float = 0.25
-    misfit: float = 0.3
-    passes: int = 2  # how often points join the ground
-    step: float = 1.5  # spacings of the ground within which they join each time
-    steepest: float = 1.5  # largest rise over run from the seeds within that distance
-    # They join only where it is open, as under trees plants are level with something, too: least
-    # share of the points round about that lie near the lowest points of their cells.
+    level: float = 0.25  # largest distance in metres from the plane
+    misfit: float = 0.3  # largest misfit of the plane in metres
+    passes: int = 2  # points that join the seeds in one pass count in the next
+    step: float = 1.5  # largest distance from the nearest seed, in spacings of the seeds
+    steepest: float = 1.5  # largest slope from the seeds within this distance, rise over run
+    # Least openness, because under trees plants are on the plane of other plants.
     openness: float = 0.8
 
     def apply(self, state: State) -> None:
@@ -156,7 +155,7 @@ class LevelSeeds(PointRule):
 
 
 def openness_of(state: State) -> np.ndarray:
-    """Return the openness of each cell, and note how much the seeds rise over a cell."""
+    """Return the openness of each cell, and keep the rise of the seeds over a cell in the state."""
     grid = state.grids[0]
     if state.rise is None:
         mean = mean_surface(state.points, state.seeds, grid.cells, state.seed_spacing)
@@ -175,8 +174,8 @@ def mean_surface(points: Points, seeds: np.ndarray, cells: Cells, spacing: float
 
 
 def _extreme(cells: Cells, points: Points, selected: np.ndarray, sign: float = 1.0) -> np.ndarray:
-    """Return the lowest of some points in each cell, or with a sign of -1 the negative of the
-    highest; infinite where there is none.
+    """Return the lowest height of selected points in each cell, or minus the highest with a sign of
+    -1; infinite where there are none.
     """
     lowest = np.full(cells.rows * cells.columns, np.inf, dtype=np.float32)
     lower_at(lowest, cells.index[selected], (sign * points.z[selected]).astype(np.float32))
@@ -184,7 +183,7 @@ def _extreme(cells: Cells, points: Points, selected: np.ndarray, sign: float = 1
 
 
 def _near(cells: Cells, seeds: np.ndarray, judged: np.ndarray, reach: float) -> np.ndarray:
-    """Return which seeds may be neighbours of the judged points; most are not."""
+    """Return which seeds may be neighbours of the judged points, within a reach in metres."""
     steps = int(np.ceil(reach / cells.size)) + 1
     around = within_square(np.maximum, cells.holding(judged), steps)
     return around.ravel()[cells.index[seeds]]

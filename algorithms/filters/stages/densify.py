@@ -26,23 +26,24 @@ from ..pipeline import PointRule, Stage
 from ..state import State
 from ..triangles_round import WIDEST, CellVertices
 
-# Metres between the virtual points round the survey.
-_RING_SPACING = 5.0
-# Iteration distances from the seeds' smooth surface within which candidates lie. No facet would
-# come close to a candidate farther away.
+_RING_SPACING = 5.0  # metres between the virtual points round the survey
+# Largest distance of a candidate from a smooth surface through the seeds, in iteration distances.
+# No facet comes close to points farther away.
 _REACHABLE = 3.0
-# If the 3 x 3 cells round a candidate hold more vertices, its triangle is too small to take it.
+# Largest number of vertices in the 3 x 3 cells round a candidate. With more, its triangle is too
+# small to take a point.
 _MOST_VERTICES_ROUND = 4
-
-# Most rounds. In each place they end when no point is added: rounds far away must not matter.
+# Most rounds. Candidates whose triangle did not change are not tested again, so that rounds in one
+# place do not depend on how many there are in another.
 _MOST_ROUNDS = 8
 
 
 @dataclass(frozen=True)
 class Densification(PointRule):
-    """A waiting point that lies close to the facets of the TIN becomes a vertex, round by round."""
+    """A waiting point whose distance and angle to its facet of the TIN are small is ground."""
 
-    # Axelsson (2000), section 3. Distances are metres, angles degrees.
+    # Axelsson (2000), section 3. In each round, every facet takes the nearest of these points as a
+    # vertex. Distances are in metres, angles in degrees.
 
     stage: ClassVar = Stage.SURFACE
     writes: ClassVar = ("seeds", "waiting")
@@ -50,22 +51,26 @@ class Densification(PointRule):
     # Largest angle between the facet and the line from one of its corners to the point.
     iteration_angle: float = 15.0
     iteration_distance: float = 1.4  # largest distance from the facet
-    # On steeper facets the mirror image of the point beyond the nearest corner is tested instead.
+    # Largest slope of a facet. On steeper ones, the mirror image of the point beyond the nearest
+    # corner is tested in its place.
     max_terrain_angle: float = 88.0
-    # In triangles whose longest edge is shorter the angle is reduced in proportion.
+    # Length of the longest edge below which the iteration angle is reduced in proportion; None for
+    # no reduction.
     reduce_angle_edge: float | None = 5.0
-    stop_edge: float | None = 2.0  # triangles whose longest edge is shorter take no point
-    noise_distance: float = 0.3  # a point so close to the facet is taken at any angle
-    # The largest distance in clouds from images, whose walls are slopes that the TIN would climb;
-    # None for the same as in others.
+    # Least length of the longest edge of a triangle that takes a point; None for no limit.
+    stop_edge: float | None = 2.0
+    noise_distance: float = 0.3  # distance from the facet up to which any angle is allowed
+    # Largest distance from the facet in clouds from images, whose walls are slopes that the TIN
+    # would climb; None for the same as in other clouds.
     in_images: float | None = 0.5
-    # One of the eight cells round a candidate is level with it, within this many metres more than
-    # the surface rises: ground continues, but bushes below trees have points at any height.
+    # Largest difference in height from one of the eight cells round a candidate, beyond the rise of
+    # the surface: ground continues, but bushes below trees have points at any height. None for any.
     level: float | None = 0.3
-    in_woods: bool = False  # under trees the TIN would climb what grows there, bush by bush
+    # Whether points under trees are candidates as well: the TIN climbs plants, one after the other.
+    in_woods: bool = False
 
     def apply(self, state: State) -> None:
-        """Let waiting points in gaps between vertices join the seeds."""
+        """Let waiting points join the seeds."""
         if self.in_images is not None and state.from_images:
             nearest = min(self.in_images, self.iteration_distance)
             dataclasses.replace(self, iteration_distance=nearest, in_images=None).apply(state)
@@ -96,7 +101,7 @@ class Densification(PointRule):
 
 
 def with_lower(heights: np.ndarray, cells: Cells, points: Points, added: np.ndarray) -> np.ndarray:
-    """Return a grid of lowest heights (NaN where there is none) with some more points."""
+    """Return a grid of lowest heights (NaN for none), lowered by further points."""
     lowest = heights.ravel().copy()
     np.fmin.at(lowest, cells.index[added], points.z[added])
     return lowest.reshape(heights.shape)
@@ -111,19 +116,16 @@ def _steepness_at(cells: Cells, surface: np.ndarray, points: Points) -> np.ndarr
 
 
 class _Survey(NamedTuple):
-    """The data for the TIN of each round."""
-
-    # `ring` are vertices round all cells (see `_ring`). Vertices within `reach` cells are next to
-    # each other.
+    """What the TIN of each round is made of."""
 
     points: Points
     cells: Cells
-    ring: Points
-    reach: int
+    ring: Points  # virtual vertices round all cells
+    reach: int  # largest distance in cells of neighbouring vertices outside of gaps
 
     def triangles(self, vertices: np.ndarray, x: np.ndarray, y: np.ndarray) -> np.ndarray:
-        """Return the corners of the triangles of vertices that hold places, intp (q, 3), ascending:
-        indices of points, after the last one those of the ring; -1 outside of all.
+        """Return the corners of the triangles that hold places, intp (q, 3), ascending: indices of
+        points, and after the last one those of the ring; -1 outside of the TIN.
         """
         row, column = (
             np.clip(np.floor(places / self.cells.size).astype(np.intp) - first, 0, count - 1)
@@ -151,13 +153,13 @@ class _Survey(NamedTuple):
         """Yield x, y and z of corners."""
         of_ring = corners >= self.points.count
         for values, ring in zip(self.points, self.ring):
-            found = values.take(np.where(of_ring, 0, corners))
-            found[of_ring] = ring[corners[of_ring] - self.points.count]
-            yield found
+            places = values.take(np.where(of_ring, 0, corners))
+            places[of_ring] = ring[corners[of_ring] - self.points.count]
+            yield places
 
 
 def _has_level_neighbour(above: np.ndarray, level: float) -> np.ndarray:
-    """Return which cells have one of their eight neighbours within some metres of their height."""
+    """Return which cells have one of their eight neighbours within `level` metres in height."""
     rows, columns = above.shape
     padded = np.pad(above, 1, constant_values=np.nan)
     found = np.zeros(above.shape, dtype=bool)
@@ -169,8 +171,8 @@ def _has_level_neighbour(above: np.ndarray, level: float) -> np.ndarray:
 
 
 def _ring(cells: Cells, surface: np.ndarray) -> Points:
-    """Return virtual points round all cells, at multiples of their spacing in the frame."""
-    # Without them, ground outside the hull of the seeds would have no triangle.
+    """Return virtual points round all cells, at multiples of their spacing."""
+    # Ground outside the hull of the seeds has a triangle only with these points.
     (south, north), (west, east) = (
         (first * cells.size, (first + count) * cells.size)
         for first, count in zip(cells.first, cells.shape)
@@ -194,7 +196,7 @@ def _joined(
     rules: Densification,
     progress: Progress,
 ) -> np.ndarray:
-    """Return the indices of the candidates that join the first vertices, round by round."""
+    """Return the indices of the waiting points that join the first vertices, round by round."""
     vertices = first
     for round_ in range(_MOST_ROUNDS):
         candidates = survey.points.take(waiting)
@@ -206,7 +208,7 @@ def _joined(
         if not len(new):
             break
         vertices = np.concatenate((vertices, waiting[new]))
-        # The others lie in the same triangle as before, which did not take them.
+        # All other points lie in the same triangle as before, which did not take them.
         x, y, _ = survey.places(corners)
         changed = mirrored | lost_triangles(x, y, candidates.x[new], candidates.y[new])
         changed[new] = False
@@ -217,9 +219,9 @@ def _joined(
 
 def _bounding(vertices: np.ndarray, waiting: np.ndarray, reach: int) -> np.ndarray:
     """Return the cells whose vertices may bound a triangle in which a candidate lies."""
-    # A triangulation of these alone has the same triangles near candidates, and round the gaps in
-    # which they lie; all other vertices, by far the most, would only cost time. Cells farther than
-    # `reach` cells from all vertices are a gap.
+    # A triangulation of these vertices has the same triangles near candidates as that of all. They
+    # are the vertices near candidates, and those round the gaps in which candidates lie: areas of
+    # cells farther than `reach` cells from all vertices.
     from scipy import ndimage
 
     gaps, count = ndimage.label(~within_square(np.maximum, vertices, reach), np.ones((3, 3)))
@@ -238,8 +240,8 @@ def _round(
     points: Points,
     rules: Densification,
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Return which candidates to add, at most one in each triangle, and which were tested in
-    another triangle, because their own is too steep.
+    """Return which candidates become vertices, at most one in each triangle, and which of all were
+    tested by their mirror image, since their triangle is too steep.
     """
     distance, angle, longest, mirrored = _distance_and_angle(
         survey, vertices, corners, points, rules
@@ -269,8 +271,8 @@ def _distance_and_angle(
     points: Points,
     rules: Densification,
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """Return distance to the facet, largest angle at its corners (rad), its longest edge, and whose
-    mirror image was tested.
+    """Return for each candidate the distance from its facet, the largest angle at the corners in
+    radians, the longest edge, and whether its mirror image was tested.
     """
     x, y, z = survey.places(corners)
     normal, longest = _facets(x, y, z)

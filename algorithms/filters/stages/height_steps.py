@@ -13,22 +13,23 @@ from .regions import Border, Regions
 
 # East, north and the two diagonals: with their opposites, the eight neighbours of a cell.
 _DIRECTIONS = ((0, 1), (1, 0), (1, 1), (1, -1))
-# Distance in metres over which heights are compared, unless cells are larger. Over a shorter one, a
-# point half-way up a wall, or a filled gap between roof and ground, makes a staircase of low steps.
+# Distance in metres over which heights are compared, or the side of a cell if that is larger. Over
+# a shorter one, a point half-way up a wall, or a filled gap between roof and ground, makes a
+# staircase of low steps.
 _STEP = 1.0
 # Cells whose steps are computed at a time, so that they stay in the processor's cache.
 _CELLS_A_STRIP = 1 << 15
-# Passes in which rim cells join the region that they are level with.
+# Passes in which rim cells join a region beside them that is level with them.
 _JOINING_PASSES = 2
-# Passes in which cells that are level with the ground grow back.
+# Passes in which cells that are level with the ground beside them become ground again.
 _GROWING_PASSES = 4
-# Relaxations of the surface across gaps. Few are enough, because rims bound objects, not the
-# filling.
+# Relaxations of the surface across gaps. Few are enough, because objects end at rims, whatever the
+# filling of gaps.
 _RELAXATIONS = 2
 
 
 class HeightSteps:
-    """The steps of a height grid that the trend of the terrain does not explain."""
+    """The steps between cells of a height grid that are higher than the trend of the terrain."""
 
     # `grid`: Lowest height of each cell.
     # `inside`: bool (rows, columns): Cells that were surveyed (see `covered`); nothing is known of
@@ -49,19 +50,19 @@ class HeightSteps:
         return self._unframed(self._heights.reshape(self._inside.shape))
 
     def regions(self, threshold: float) -> Regions:
-        """Return the regions between cells that are higher than a neighbour by more than a
-        threshold in metres, the rise of the terrain and its usual unevenness.
+        """Return the regions between rims: cells that are higher than a neighbour by more than a
+        threshold in metres, plus the rise of the terrain and its usual unevenness.
         """
-        # Rim cells belong to the region that they are level with, like the edge of a roof; those
-        # that are level with none, like a thin tree, are regions of their own.
+        # A rim cell belongs to the region beside it that is level with it, as the edge of a roof
+        # does. Rim cells without such a region, as those of a thin tree, are regions of their own.
         (steps,) = self._steps(threshold)
         return self._regions(steps)
 
     def regions_and_rims(
         self, threshold: float, roughness_factor: float
     ) -> tuple[Regions, np.ndarray]:
-        """Return the `regions`, and which cells are rims if the usual unevenness, multiplied by
-        `roughness_factor`, is added.
+        """Return the `regions`, and the cells that are rims with `roughness_factor` times the usual
+        unevenness of the terrain.
         """
         steps, large = self._steps(threshold, (1.0, roughness_factor))
         return self._regions(steps), self._unframed(self._rims(large))
@@ -78,15 +79,14 @@ class HeightSteps:
             cells = cells[flat[cells] == 0]
         rest = np.zeros(flat.size, dtype=bool)
         rest[cells] = True
-        own, more = ndimage.label(rest.reshape(rim.shape), np.ones((3, 3)))
-        flat[cells] = own.ravel()[cells] + count
-        count += more + 1
-        border = self._border(flat, count, steps)
+        rest_regions, rest_count = ndimage.label(rest.reshape(rim.shape), np.ones((3, 3)))
+        flat[cells] = rest_regions.ravel()[cells] + count
+        border = self._border(flat, count + rest_count + 1, steps)
         return self._regions_of(regions, border)
 
     def pits(self, candidates: np.ndarray, threshold: float, max_size: float) -> np.ndarray:
-        """Return the cells of patches of candidates, at most `max_size` metres wide, that lie below
-        the cells round them on all sides; cells that touch are one patch, even if they are uneven.
+        """Return the candidates in pits: in patches of candidates, at most `max_size` metres wide,
+        whose border rises by more than a threshold in metres nearly all round.
         """
         from scipy import ndimage
 
@@ -96,12 +96,12 @@ class HeightSteps:
         return self._regions_of(patches, border).sunken(max_size) & candidates
 
     def _regions_of(self, number: np.ndarray, border: Border) -> Regions:
-        """Return regions, given their numbers with the frame, and their borders."""
+        """Return regions, given their numbers on the grid with its frame, and their borders."""
         return Regions(self._unframed(number), border, self._size, self._step, self._known_heights)
 
     def regrown(self, kept: np.ndarray, heights: np.ndarray, threshold: float) -> np.ndarray:
-        """Return the kept ground, and the cells with a height that are level with the mean of the
-        kept ones beside them.
+        """Return the kept cells of ground, and those with a height that are level with the mean of
+        the kept ones beside them.
         """
         kept = np.pad(kept, self._step).ravel()
         grid = np.pad(heights.astype(np.float32), self._step, constant_values=np.nan).ravel()
@@ -129,7 +129,7 @@ class HeightSteps:
     def _steps(
         self, threshold: float, roughness_factors: Sequence[float] = (1.0,)
     ) -> list[list[_Steps]]:
-        """Return the steps to the neighbours in four directions, for each factor."""
+        """Return the steps in each of the four directions, for each factor of the unevenness."""
         width = self._inside.shape[1]
         directions = [(row * self._step, column * self._step) for row, column in _DIRECTIONS]
         offsets = [row * width + column for row, column in directions]
@@ -158,7 +158,7 @@ class HeightSteps:
         threshold: float,
         roughness_factors: Sequence[float],
     ) -> None:
-        """Fill in the signs of one direction for the cells of a trend, from cell `start` on."""
+        """Fill in the signs of one direction for the cells of `trend`, from cell `start` on."""
         step = steps[0]
         end = min(start + trend.north.size, step.sign.size)
         if end <= start:
@@ -242,11 +242,10 @@ class HeightSteps:
 
 
 class _Steps(NamedTuple):
-    """The differences between neighbouring cells, in one direction."""
+    """The steps between cells and their neighbours in one direction."""
 
-    # The direction.
-    row: int
-    column: int
+    row: int  # rows from a cell to its neighbour
+    column: int  # columns
     offset: int  # from a cell to its neighbour, in the flattened grid
     # int8: 1 where the neighbour is higher by more than is allowed, -1 where it is lower, else 0.
     sign: np.ndarray

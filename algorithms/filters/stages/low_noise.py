@@ -1,4 +1,4 @@
-"""Low noise: groups of points far below the ground round them, and returns below water."""
+"""Low noise: groups of points far below the ground round them, and points below water."""
 
 from __future__ import annotations
 
@@ -9,51 +9,51 @@ from typing import ClassVar, Iterator, NamedTuple
 import numpy as np
 
 from ...core.points import Points
-from ...grids.cells import Cells, first_of_each, spacing
+from ...grids.cells import Cells, cells_at, first_of_each, spacing
 from ...grids.morphology import within_square
 from ..lowest_planes import LowestOfCells, Surroundings
 from ..pipeline import PointRule, Stage
 from ..state import State
 
-# Least side of a cell in metres; wider where points are farther apart, so that few cells are empty.
+# Least side of a cell in metres. Where points are farther apart, it is their spacing, so that few
+# cells are empty.
 _CELL = 1.0
-# Distances from the lowest point of a group, as multiples of its width: up to the first, points
-# below the plane are of the group; beyond the second, others as low show that it is none.
+# Multiples of the width of a group. Points below the plane belong to the group up to the first
+# distance from its lowest point. Other points that are as low count beyond the second: they show
+# that it is no noise.
 _OF_GROUP = 1.5
 _BESIDE_GROUP = 1.25
-# Fewest heights on a water surface that show its level.
+# Least number of heights that show the level of a water surface.
 _LEAST_HEIGHTS = 6
-# The deviation of a normal distribution as a multiple of the median of its absolute values.
+# The standard deviation of a normal distribution, in median absolute deviations.
 _DEVIATION = 1.48
 
 
 @dataclass(frozen=True)
 class LowGroups(PointRule):
-    """A small group of points in a pit below ground that surrounds it is low noise."""
+    """A small group of points far below the plane of the ground that surrounds it is low noise."""
 
-    # Real pits of this size are hardly ever as deep, and of those that are (gaps in a canopy,
-    # wells, ends of ditches) others near them are as low, or the lowest points round them are
-    # uneven.
+    # Real pits of this width are hardly ever so deep. Near those that are (gaps in a canopy, wells,
+    # ends of ditches), other lowest points are as low, or the lowest points round them are uneven.
 
     stage: ClassVar = Stage.LOW_NOISE
     writes: ClassVar = ("points", "grids", "low_noise")
 
-    # Largest width of a group in metres. Its corners may be farther from its lowest point.
-    width: float = 2.0
+    width: float = 2.0  # largest width of a group in metres
     depth: float = 0.4  # least depth in metres below the plane of the surroundings
-    # Least depth as a multiple of the deviation of the surroundings from their plane.
+    # Least depth in standard deviations of the surroundings from their plane.
     deviations: float = 4.0
     ring: float = 6.0  # radius of the surroundings in metres
     ring_cells: int = 4  # least radius of the surroundings in cells, for sparse points
-    level: float = 0.25  # metres: a height belongs to the plane up to this far from it
-    sides: int = 5  # of eight, on which half of the heights must belong to the plane
-    # Most heights beyond the group that are as low, as a share of those on the plane.
+    level: float = 0.25  # largest distance in metres of a height that lies on the plane
+    sides: int = 5  # least number, of eight, on which half of the heights lie on the plane
+    # Largest number of heights beyond the group that are as low, as a share of those on the plane.
     most_beside: float = 0.0
-    # Points of the ground lie above a group as densely as beside it: half of its points have one no
-    # farther than this multiple of the usual distance to the nearest among them. Up to the second
-    # multiple it is doubtful, since a group may have a dozen points. A doubtful one, and one that
-    # spreads less, as a multiple of the same, must be parted from the plane by a gap in height, as
-    # a share of its depth.
+    # There is ground above a group if the median distance of its points from the nearest ground
+    # point is at most this multiple of the median distance between ground points. Up to the second
+    # multiple it is doubtful, because a group may have only a dozen points. A doubtful group, and
+    # one whose points lie within `spread` of these distances, is noise if a gap in height of at
+    # least `gap` times its depth parts it from the ground.
     nearest: float = 1.3
     doubtful: float = 1.65
     spread: float = 2.0
@@ -70,7 +70,6 @@ class LowGroups(PointRule):
         """Return which points (n,) belong to a low group; `known` are cells of at least 1 m and the
         lowest point of each.
         """
-        # The plane follows the lower points where buildings or crowns stand among them.
         if known is None:
             cells = Cells.over(points, max(_CELL, spacing(points)))
             known = cells, cells.lowest_points(points)
@@ -80,12 +79,12 @@ class LowGroups(PointRule):
         grids = LowestOfCells.of(points, cells, margin, lowest)
         places = grids.pits(cells, 0.5 * self.depth, math.ceil(self.width / size))
         groups = [
-            found for around in grids.around(places, self.width) for found in self._groups(around)
+            group for around in grids.around(places, self.width) for group in self._groups(around)
         ]
         return self._members(points, cells, groups)
 
     def _groups(self, around: Surroundings) -> Iterator[Group]:
-        """Yield the places that are groups, with the planes above them."""
+        """Yield the groups at the places whose surroundings show that they are low."""
         plane, misfit = around.plane()
         depth = plane[:, 2]
         on_plane = around.known & (np.abs(misfit) <= self.level)
@@ -93,10 +92,10 @@ class LowGroups(PointRule):
         as_low = around.known & (misfit < -0.5 * depth[:, None])
         as_low &= around.distance > _BESIDE_GROUP * self.width
         deep = depth > np.maximum(self.depth, self.deviations * deviation)
-        low, level = (np.count_nonzero(which, axis=1) for which in (as_low, on_plane))
-        alone = low <= self.most_beside * level
+        low_count, level_count = (np.count_nonzero(which, axis=1) for which in (as_low, on_plane))
+        is_alone = low_count <= self.most_beside * level_count
         is_enclosed = around.sides_with(on_plane) >= self.sides
-        for number in np.flatnonzero(deep & alone & is_enclosed):
+        for number in np.flatnonzero(deep & is_alone & is_enclosed):
             east, north, height = plane[number].tolist()
             x, y, z = (float(column[number]) for column in around.centre)
             margin = max(self.level, 3.0 * float(deviation[number]))
@@ -108,14 +107,12 @@ class LowGroups(PointRule):
         if not groups:
             return members
         reach = math.ceil(_OF_GROUP * self.width / cells.size)
+        x, y = np.array([(group.x, group.y) for group in groups]).T
+        rows, columns = cells_at(x, y, cells.size)
+        rows, columns = rows - cells.first_row, columns - cells.first_column
         near = np.zeros(cells.shape, dtype=bool)
-        places = [
-            (math.floor(group.y / cells.size), math.floor(group.x / cells.size)) for group in groups
-        ]
-        rows, columns = (np.array(places) - cells.first).T
         near[rows, columns] = True
-        near = within_square(np.maximum, near.view(np.uint8), reach).astype(bool)
-        which = cells.points_in(near)
+        which = cells.points_in(within_square(np.maximum, near, reach))
         which = which[np.isfinite(points.z[which])]
         order = np.argsort(cells.index[which], kind="stable")
         which, index = which[order], cells.index[which[order]]
@@ -124,16 +121,18 @@ class LowGroups(PointRule):
             last = min(column + reach, cells.columns - 1)
             lines = np.arange(max(row - reach, 0), min(row + reach, cells.rows - 1) + 1)
             ends = lines[:, None] * cells.columns + (first, last + 1)
-            some = np.concatenate([which[start:end] for start, end in np.searchsorted(index, ends)])
-            beside = points.take(some)
+            near_it = np.concatenate(
+                [which[start:end] for start, end in np.searchsorted(index, ends)]
+            )
+            beside = points.take(near_it)
             inside = group.holds(beside, self.width)
             if self.is_detached(group, beside, inside):
-                members[some[inside]] = True
+                members[near_it[inside]] = True
         return members
 
     def is_detached(self, group: Group, points: Points, members: np.ndarray) -> bool:
-        """Return whether points of the ground lie above the members of a group, which are some of
-        the points beside it, or a gap in height parts them.
+        """Return whether ground points lie above a group, or a gap in height parts them; `points`
+        are those near the group, `members` those of the group.
         """
         from scipy.spatial import cKDTree
 
@@ -153,37 +152,38 @@ class LowGroups(PointRule):
 
 @dataclass(frozen=True)
 class WideLowGroups(LowGroups):
-    """A wider group below ground is low noise if there are points of the ground among its own."""
+    """A wider group of points below the ground is low noise if ground points lie above it."""
 
-    # In a real pit there are none. Reflections in streets, and below roofs, are such groups.
+    # Above a real pit there are none. Reflections in streets and below roofs are such groups.
 
     width: float = 6.0
     depth: float = 3.0
     ring: float = 18.0
     most_beside: float = 0.1
-    cell: float = 3.0  # least side in metres of the cells of which the lowest points are compared
-    spacings: float = 3.0  # the same as a multiple of the usual distance between points
+    # Least side of the cells whose lowest points are compared, in metres and in spacings of the
+    # points.
+    cell: float = 3.0
+    spacings: float = 3.0
 
     def apply(self, state: State) -> None:
         """Add the groups to the low noise."""
         points, grid = state.points, state.grids[0]
         cells = grid.cells.wider(points, max(self.cell, self.spacings * state.spacing))
-        index, some = cells.index[grid.lowest], points.take(grid.lowest)
-        first = first_of_each(index, cells.rows * cells.columns, some.z, some.x, some.y)
+        index, (x, y, z) = cells.index[grid.lowest], points.take(grid.lowest)
+        first = first_of_each(index, cells.rows * cells.columns, z, x, y)
         state.add_low_noise(self.find(points, (cells, grid.lowest[first])))
 
 
 class Group(NamedTuple):
-    """A low group: its lowest point, and the plane below which its points lie."""
+    """A low group: the place of its lowest point, and the plane below which its points lie."""
 
-    # Place of the lowest point.
-    x: float
+    x: float  # of the lowest point
     y: float
-    # Height of the plane in metres there, and its rise over run towards east and north.
-    limit: float
+    limit: float  # height in metres of the plane at this place
+    # Rise over run of the plane towards east and north.
     east: float
     north: float
-    margin: float  # metres from this plane up to that of the ground
+    margin: float  # metres by which the plane of the ground is higher
 
     def above(self, points: Points) -> np.ndarray:
         """Return how many metres above the plane points lie."""
@@ -205,26 +205,26 @@ class Group(NamedTuple):
 class BelowWater(PointRule):
     """Points scattered below a level water surface are low noise."""
 
-    # Water returns few pulses. Where points are sparse and many of them lie at one level, with land
-    # as high or higher round them, nothing below is terrain. Terrain that is lower, as behind a
-    # dam, has as many points as other land.
+    # Water returns few pulses. Where points are sparse and many of them lie at one level, and the
+    # land round them is as high or higher, no point below this level is terrain. Lower terrain,
+    # such as that behind a dam, has as many points as other land.
 
     stage: ClassVar = Stage.LOW_NOISE
     writes: ClassVar = ("points", "grids", "low_noise")
 
-    # Sides of the cells that are looked at, one after the other, in metres, or as multiples of the
-    # usual distance between points if that is larger. The wider ones are for few returns.
+    # Sides of the cells, one pass each, in spacings of the points of at least 1 m. Wide cells are
+    # for water with very few returns.
     sizes: tuple[float, ...] = (4.0, 8.0)
     reach: int = 4  # radius of the surroundings in cells
-    sparse: float = 0.5  # water has less than this share of the usual number of points
-    # At least this share of the heights lie this near to each other, in metres.
+    sparse: float = 0.5  # largest density of water, as a share of the usual density of points
+    # A water surface is a band of heights of this width in metres with at least this share of the
+    # heights in the surroundings.
     band: float = 0.1
     least_share: float = 0.4
-    # Metres by which other heights may be lower than the water without being below it.
-    shore: float = 0.25
-    sides: int = 6  # of eight, on which half of the heights must not be below the water
+    shore: float = 0.25  # metres by which the land round it may be lower than the water
+    sides: int = 6  # least number, of eight, on which half of the heights are not below the water
     depth: float = 0.4  # least depth in metres of noise below the water
-    most: float = 0.1  # noise has less than this share of the usual number of points
+    most: float = 0.1  # largest density of noise, as a share of the usual density of points
 
     def apply(self, state: State) -> None:
         """Add the points below water to the low noise."""
@@ -236,11 +236,11 @@ class BelowWater(PointRule):
             state.add_low_noise(found)
 
     def find(self, points: Points, lowest: np.ndarray, spacing: float, cells: Cells) -> np.ndarray:
-        """Return which points (n,) lie below water, given the lowest points of narrow cells and the
-        wide cells to look at; infinitely high points do not count.
+        """Return which points (n,) lie below water, given the `lowest` points of narrow cells, and
+        wide cells to search in; points that are infinitely high are ignored.
         """
-        # The highest of the lowest points of narrow cells in each wide cell is one of the surface;
-        # the level of the water is where most of these are close together.
+        # Of the lowest points of narrow cells, the highest in each wide cell lies on the surface.
+        # Most of these points are at the level of the water.
         from scipy import ndimage
 
         def density(counts: np.ndarray) -> np.ndarray:
@@ -250,32 +250,32 @@ class BelowWater(PointRule):
 
         is_finite = np.isfinite(points.z)
         counts = cells.counts if is_finite.all() else cells.counts_of(is_finite)
-        looked_at = density(counts) < self.sparse
-        looked_at &= self._deep(points, cells, lowest)
-        if not looked_at.any():
+        searched = density(counts) < self.sparse
+        searched &= self._deep(points, cells, lowest)
+        if not searched.any():
             return np.zeros(points.count, dtype=bool)
         z, x, y = (-points.z[lowest], points.x[lowest], points.y[lowest])
-        upper = lowest[first_of_each(cells.index[lowest], looked_at.size, z, x, y)]
+        upper = lowest[first_of_each(cells.index[lowest], searched.size, z, x, y)]
         grids = LowestOfCells.of(points, cells, self.reach, upper)
         limit = np.full(cells.shape, -np.inf)
-        limit[looked_at] = np.concatenate(
-            [self._limits(around) for around in grids.around(grids.places(looked_at), 0.0)]
+        limit[searched] = np.concatenate(
+            [self._limits(around) for around in grids.around(grids.places(searched), 0.0)]
         )
         # Cells along the shore have too few points of the water to show its level.
-        near, far = (
+        near_limit, far_limit = (
             np.where(np.isfinite(limit), limit, within_square(np.maximum, limit, cells_away))
             for cells_away in (1, 2)
         )
-        which = cells.points_in(np.isfinite(far))
+        which = cells.points_in(np.isfinite(far_limit))
         z, index = points.z[which], cells.index[which]
-        below, wider = (z < lowest.ravel().take(index) for lowest in (near, far))
-        counts = np.bincount(index[wider], minlength=far.size).reshape(far.shape)
+        below, counted = (z < grid.ravel().take(index) for grid in (near_limit, far_limit))
+        counts = np.bincount(index[counted], minlength=limit.size).reshape(limit.shape)
         found = np.zeros(points.count, dtype=bool)
         found[which] = below & (density(counts) < self.most).ravel().take(index)
         return found
 
     def _deep(self, points: Points, cells: Cells, lowest: np.ndarray) -> np.ndarray:
-        """Return the cells with points that lie below the highest beside; shape (rows, columns)."""
+        """Return which cells have a lowest point far below the highest one beside."""
         z, index = points.z[lowest], cells.index[lowest]
         deepest, highest = (np.full(cells.rows * cells.columns, sign * np.inf) for sign in (1, -1))
         np.minimum.at(deepest, index, z)
@@ -284,7 +284,7 @@ class BelowWater(PointRule):
         return deepest.reshape(cells.shape) < beside - self.depth
 
     def _limits(self, around: Surroundings) -> np.ndarray:
-        """Return the height below which points are noise in each place; -inf where no water is."""
+        """Return the height below which points are noise at each place; -inf without water."""
         z = np.sort(np.where(around.known, around.z, np.inf), axis=1)
         known = np.count_nonzero(around.known, axis=1)
         needed = np.maximum(np.ceil(self.least_share * known).astype(np.intp), _LEAST_HEIGHTS)

@@ -1,4 +1,4 @@
-"""The noise of ground points."""
+"""The noise of ground points: their standard deviation about the surface of the ground."""
 
 from __future__ import annotations
 
@@ -11,38 +11,38 @@ from ...core.threads import in_threads, parts_of
 from ...grids.cells import Cells
 from ..cell_blocks import CellBlocks
 
-# Metres from the lowest points within which noise is measured.
-_NOISE_WINDOW = 0.6
-_NOISE_POINTS = 8  # fewest points of a cell in which it is measured
-# This percentile of the cells is used, because most have plants as well.
+_NOISE_WINDOW = 0.6  # metres from the surface within which points count for the noise
+_NOISE_POINTS = 8  # least number of such points in a cell
+# The noise of a cloud is this percentile of that of its cells, because most cells have plants.
 _NOISE_PERCENTILE = 25
-_FARTHEST = 2.4  # metres: largest distance of noise from the lowest points
+_FARTHEST = 2.4  # metres from the surface beyond which no point is noise of the ground
 _STEPS_A_METRE = 1 << 14  # to which rises are rounded
-# Cells along a side of the squares in which noise is measured where few points lie in a cell.
+# Where cells hold few points: side in cells of the squares in which noise is measured, and its
+# percentile, which is lower since more squares than cells have plants.
 _SQUARE = 3
-# This percentile of the squares is used, because more squares than cells have plants.
 _SQUARE_PERCENTILE = 10
-# Points within this multiple of the noise belong to the ground.
+# The middle of the noise in a cell is the mean of the points within this multiple of the noise. It
+# is computed twice, since these points change, and from at least so many points.
 _NOISE_FACTOR = 2.5
-_MEAN_POINTS = 4  # fewest of them for a mean
-_MEANS = 2  # how often the mean is computed
-# The lowest of n points lies below the ground by the noise times this, times sqrt(2 ln n).
+_MEANS = 2
+_MEAN_POINTS = 4
+# The lowest of n points lies below the middle by the noise times this, times sqrt(2 ln n).
 _LOWEST_FACTOR = 0.8
 _POINTS_A_PART = 1 << 15
 _POINTS_A_SUM = 1 << 19
-# Under this name points tell the box outside of which only the lowest of them are left: these are
-# less noisy than all.
+# The name in `Points.found` of the box outside of which the cloud was thinned to the lowest points,
+# which are less noisy than all.
 UNTHINNED = "unthinned"
 
 
 def middle_of_noise(
     points: Points, cells: Cells, surface: np.ndarray, slopes: tuple[np.ndarray, np.ndarray]
 ) -> tuple[np.ndarray, float]:
-    """Return the middle of the ground points of each cell (cells,) above a surface of given slopes,
-    and their noise as a standard deviation, 0 if no cell has enough points, in metres.
+    """Return how many metres the middle of the ground points of each cell (cells,) lies above a
+    surface of given slopes, and their noise in metres, 0 if no cell has enough points.
     """
     # The first guess lies above the lowest point by a multiple of the noise that follows from the
-    # number of points; then the points near the guess are averaged.
+    # number of points. Then the points near the guess are averaged.
     rises = _rises(points, cells, surface, slopes)
     sums = _sums(rises, np.zeros(surface.size, np.float32), _NOISE_WINDOW)
     noise = _noise(sums[:, _unthinned(points, cells)], _NOISE_PERCENTILE)
@@ -56,10 +56,11 @@ def middle_of_noise(
 def noise_of_squares(
     points: Points, cells: Cells, surface: np.ndarray, slopes: tuple[np.ndarray, np.ndarray]
 ) -> float:
-    """Return the noise where few points lie in a cell, in squares of 3 x 3, rounded to centimetres
-    so that the border of a survey hardly changes it; 0 if none has enough points.
+    """Return the noise in metres of a cloud with few points in a cell, from squares of 3 x 3 cells;
+    0 if no square has enough points.
     """
-    # It is a little too large, because it includes the errors of the surface.
+    # It is a little too large, because it includes the errors of the surface. It is rounded to
+    # centimetres, so that the border of a survey hardly changes it.
     rises = _rises(points, cells, surface, slopes)
     sums = _sums(rises, np.zeros(surface.size, np.float32), _NOISE_WINDOW)
     sums *= _unthinned(points, cells)
@@ -69,7 +70,7 @@ def noise_of_squares(
 
 
 def _unthinned(points: Points, cells: Cells) -> np.ndarray:
-    """Return the cells (cells,) in which all points are there, by their middles."""
+    """Return the cells (cells,) whose middles lie where the cloud was not thinned."""
     west, south, east, north = points.found.get(UNTHINNED, (-np.inf, -np.inf, np.inf, np.inf))
     y, x = (
         (first + np.arange(count) + 0.5) * cells.size
@@ -79,7 +80,9 @@ def _unthinned(points: Points, cells: Cells) -> np.ndarray:
 
 
 def below_middle(number: np.ndarray) -> np.ndarray:
-    """Return how far the lowest of some points lies below their middle, as a multiple of noise."""
+    """Return how far the lowest of `number` points lies below their middle, in standard
+    deviations.
+    """
     return _LOWEST_FACTOR * np.sqrt(2.0 * np.log(number))
 
 
@@ -104,8 +107,8 @@ def from_middle(points: Points, cells: Cells, cell: np.ndarray) -> tuple[np.ndar
 def _rises(
     points: Points, cells: Cells, surface: np.ndarray, slopes: tuple[np.ndarray, np.ndarray]
 ) -> list[tuple[np.ndarray, np.ndarray]]:
-    """Return the cells (int32) and the rises above the surface (float32) of points that may be
-    noise of the ground, part by part.
+    """Return the cells (int32) of the points near the surface, and their heights above it in metres
+    (float32), part by part.
     """
     # Rises are multiples of a power of two, so that their sums are exact in any order.
     height, to_north, to_east = (values.ravel() for values in (surface, *slopes))

@@ -14,9 +14,8 @@ from typing import ClassVar, NamedTuple
 import numpy as np
 
 from ...core.progress import SILENT, Progress
-from ...grids.cells import Cells, usual_count
+from ...grids.cells import Cells
 from ...grids.gradient import steepness
-from ...grids.inpaint import inpaint
 from ...grids.morphology import in_steps, opening, within_square
 from ..cell_blocks import CellBlocks
 from ..height_grid import HeightGrid
@@ -26,59 +25,57 @@ from .height_steps import HeightSteps
 from .outliers import NarrowPits
 from .regions import Regions
 
-# Least side in metres of the blocks in which the density is measured.
-_DENSITY_BLOCK = 10.0
 _STEEPEST = 5.0  # rise over run: largest slope of the surface that counts
 _RELAXATIONS = 2  # across its gaps
-# Metres beyond an object within which a cell as high is of its rim.
+# Metres beyond an object within which cells that are as high belong to its rim.
 _RIM = 2.0
 
 
 class Objects(NamedTuple):
-    """Cells that stand out on all sides; grids of shape (rows, columns)."""
+    """Cells that stand out on all sides."""
 
-    raised: np.ndarray  # bool: Cells of objects
-    # bool: Cells of regions that are too low for their width to be objects for certain: a roof, or
-    # a mound.
+    raised: np.ndarray  # bool (rows, columns): Cells of objects
+    # bool (rows, columns): Cells of regions that are too low for their width to be objects for
+    # certain: they may be roofs or mounds.
     plateaus: np.ndarray
 
 
 @dataclass(frozen=True)
 class RaisedObjects(GridRule):
-    """A region with drops all round is an object."""
+    """A region between rims is an object if most of its border is a drop."""
 
-    # More than half of the border must be a drop, also of the whole border with that of the survey:
-    # the one drop of a topmost terrace tread winds, and the survey ends on its other side.
+    # More than half of the border must be a drop even if the border of the survey is counted as
+    # level: the topmost tread of a terrace drops on one side, and the survey ends on the other.
 
     stage: ClassVar = Stage.OBJECTS
     writes: ClassVar = ("objects", "plateaus", "raised")
 
     max_size: float  # largest width (shorter side) of an object in metres
-    # Least heights in metres of the drops that bound an object, one for each pass, the largest
-    # first. Objects that one pass finds are removed before the next.
+    # Least heights in metres of the drops round objects, one for each pass, in descending order.
+    # Objects of one pass are removed before the next.
     heights: tuple[float, ...] = (5.0, 2.0)
-    # Least share of the known border, and of the whole border, that must be a drop.
-    share: float = 0.65
-    whole_share: float = 0.55
-    # Least mean height of the drop over the width of the region. Lower and wider regions are
-    # terrain, or plateaus.
+    share: float = 0.65  # least share of drops in the border with cells that have a height
+    whole_share: float = 0.55  # least share of drops in the whole border
+    # Least ratio of the mean drop to the width of the region. Lower or wider regions are terrain or
+    # plateaus.
     steepness: float = 0.15
-    # Where points are closer than `dense` metres, objects are searched on cells of `wide` metres:
-    # in narrower ones gaps in crowns and roofs break the rims, in wider ones plazas and terraces
-    # become plateaus. Where points are farther apart, cells as wide as their spacing do. None for
-    # the cells of the grid everywhere.
+    # In clouds with a spacing below `dense` metres, objects are searched on cells of `wide` metres:
+    # in narrower cells gaps in crowns and roofs break the rims, and in wider ones plazas and
+    # terraces look like plateaus. In other clouds, cells as wide as the spacing are enough. None
+    # for the cells of the grid in all clouds.
     wide: float | None = 2.0
     dense: float = 0.8
-    # Least height in metres of the drops round a plateau: a hall may be so low above the ground
-    # uphill. The cells must be so wide that most points on its walls share a cell with the ground.
-    # None for no plateaus.
+    # Least height in metres of the drops round a plateau, that of a hall above the ground uphill.
+    # Cells must be so wide that most points on its walls share one with the ground. None for no
+    # plateaus.
     plateau_height: float | None = 1.2
-    # A plateau is a roof, however wide, if such shares of its known and of its whole border drop by
-    # a mean of at least the last of `heights`, and no ramp leads to it. Banks are not so steep.
+    # A plateau is a roof, however wide, if at least these shares of its known and of its whole
+    # border drop, on average by the last of `heights`, and no ramp leads to it. Banks are less
+    # steep.
     sheer_shares: tuple[float, float] = (0.85, 0.75)
     ramp: float = 5.0  # least width of a ramp in metres
-    # Least share of the height of a wide object's sides that falls at once: those of a table
-    # mountain take some metres. 0 for any sides.
+    # Least share of the drop at the sides of a wide object that is a wall (see `Regions`): the
+    # sides of a table mountain are less steep. 0 for no limit.
     wall: float = 0.88
     narrow_pits: NarrowPits | None = NarrowPits()
 
@@ -100,17 +97,18 @@ class RaisedObjects(GridRule):
         grid.raised = grid.objects.copy()
 
     def _rims(self, grid: GridState, least: float) -> np.ndarray:
-        """Return the cells beside objects that are as high, and higher than others beside them."""
-        # Blocks of cells along the border of a roof hold ground as well.
+        """Return the cells as high as an object beside them, and higher than others beside them."""
+        # The blocks of cells along the border of a roof hold ground as well, so that they are not
+        # part of the object that was found on them.
         heights = grid.heights.values
-        low = np.where(grid.objects, np.nan_to_num(heights, nan=-np.inf), -np.inf)
+        of_objects = np.where(grid.objects, np.nan_to_num(heights, nan=-np.inf), -np.inf)
         reach = math.ceil(_RIM / grid.cells.size)
-        top = within_square(np.maximum, low, reach)
+        top = within_square(np.maximum, of_objects, reach)
         foot = within_square(np.minimum, np.nan_to_num(heights, nan=np.inf), 1)
         return np.isfinite(top) & (heights > top - least) & (heights > foot + least)
 
     def _without_gaps(self, grid: GridState) -> tuple[Cells, HeightGrid]:
-        """Return cells so wide that hardly one is empty, which would break the rims of objects."""
+        """Return cells so wide that hardly one is empty, since empty ones break rims."""
         apart = max(grid.spacing, 1.0)
         if apart <= grid.cells.size:
             return grid.cells, grid.heights
@@ -150,22 +148,22 @@ class RaisedObjects(GridRule):
         )
 
     def plateaus_of(self, regions: Regions) -> np.ndarray:
-        """Return the cells of the regions that drop all round, also of those that drop little."""
+        """Return the cells of the regions that drop all round, however wide for their height."""
         return regions.bounded(self.max_size, self.share, self.whole_share, wall=self.wall)
 
 
 @dataclass(frozen=True)
 class TallObjects(GridRule):
-    """Objects are removed by passes over the lowest points of blocks, the tall ones first."""
+    """A cell is part of an object if its block of cells is, or if it lies far above the ground."""
 
-    # In blocks, gaps in a tree's crown and points half-way down a wall hide no rim. Single cells
-    # far above the ground of their block are objects as well.
+    # Objects are searched among the lowest points of blocks, in which gaps in a crown and points
+    # half-way down a wall do not hide rims.
 
     stage: ClassVar = Stage.OBJECTS
     writes: ClassVar = ("objects", "plateaus", "raised")
 
     objects: RaisedObjects  # the rule for a region
-    above: float  # metres: single cells this far above the ground of their block are objects, too
+    above: float  # metres above the ground from which on a single cell is part of an object
     block: float = 1.0  # side of a block in metres; a block has at least 2 x 2 cells
     steepest: float = 5.0  # largest slope (rise over run) of the ground that counts
 
@@ -187,26 +185,19 @@ class TallObjects(GridRule):
         grid.raised = grid.objects.copy()
 
 
-def density(cells: Cells) -> float:
-    """Return the median number of points per square metre, of blocks within the survey."""
-    blocks = CellBlocks.over(cells, _DENSITY_BLOCK, least=1)
-    return usual_count(blocks.total(cells.counts)) / blocks.size**2
-
-
 @dataclass(frozen=True)
 class BlockPits(GridRule):
-    """A narrow pit far below the usual lowest points around holds low outliers."""
+    """The lowest point of a cell in a narrow pit far below the usual ones is a low outlier."""
 
-    # It is the rule of the paper's preset: a gap in the canopy, a yard or a street between roofs is
-    # such a pit, too.
+    # Only the paper's preset has this rule, because gaps in the canopy, yards and streets between
+    # roofs are such pits as well.
 
     stage: ClassVar = Stage.OUTLIERS
     writes: ClassVar = ("heights",)
 
-    # Metres that low noise is below the usual lowest points round it, and its greatest width.
-    depth: float = 2.0
-    width: float = 10.0
-    block: float = 1.0  # side in metres of the blocks in which it is searched
+    depth: float = 2.0  # least depth of a pit in metres below the usual lowest points round it
+    width: float = 10.0  # largest width of a pit in metres
+    block: float = 1.0  # side in metres of the blocks in which pits are searched
 
     def apply(self, grid: GridState, progress: Progress = SILENT) -> None:
         """Remove the cells of noise."""
@@ -228,25 +219,25 @@ class BlockPits(GridRule):
 
 @dataclass(frozen=True)
 class Rims(GridRule):
-    """The rims of low objects, and what they enclose, are no ground."""
+    """Cells at the rims of low objects, and the regions that these enclose, are raised."""
 
-    # Removed cells grow back if they are level with the ground beside them.
+    # Raised cells that are level with the ground beside them become ground again.
 
     stage: ClassVar = Stage.OPENING
     writes: ClassVar = ("raised",)
 
     objects: RaisedObjects  # the rule for a region
-    height: float  # whatever stands this far above the ground beside it is removed, in metres
-    passes: int = 2  # the first removal uncovers more
-    # Multiple of the unevenness of the terrain that is added to the height of rims.
+    height: float  # least height in metres of a rim above the cells beside it
+    passes: int = 2  # the second one finds what the first uncovers
+    # Multiple of the unevenness of the terrain that is added to the height of a rim.
     roughness: float = 2.0
-    objects_grow_back: bool = False  # whether cells of tall objects may grow back, too
-    # Metres: only what an opening of this width cuts off has rims, as the sides of hollows are no
-    # objects. Regions are wider ones. None for all rims.
+    objects_grow_back: bool = False  # whether cells of tall objects may become ground again
+    # Width in metres of an opening that must cut off a cell for it to be a rim, because the sides
+    # of hollows have rims as well. None if any cell can be a rim.
     width: float | None = 8.0
 
     def apply(self, grid: GridState, progress: Progress = SILENT) -> None:
-        """Raise the cells of low objects."""
+        """Mark the cells of low objects as raised."""
         ground = grid.heights.where(~grid.objects)
         stands_out = grid.surveyed
         for done in range(self.passes):
@@ -269,18 +260,18 @@ class Rims(GridRule):
 
 @dataclass(frozen=True)
 class FineSeeds(PointRule):
-    """Rims need cells without gaps, but the surface can have finer cells."""
+    """The lowest point of a fine cell is a seed if its wide cell is ground and it lies near the
+    surface through these.
+    """
 
-    # The lowest point of a fine cell is a seed if its wide cell is ground and the point is near the
-    # surface of the wide cells.
+    # Only rims need wide cells, which have no gaps.
 
     stage: ClassVar = Stage.SEEDS
     writes: ClassVar = ("grids", "seeds", "waiting")
 
-    height: float  # metres: farthest that the point is from the surface
+    height: float  # largest distance in metres of a seed from the surface in level terrain
     size: float = 1.0  # side of a fine cell in metres
-    # It may lie off the surface by this share of the rise over a wide cell in addition.
-    unevenness: float = 0.6
+    unevenness: float = 0.6  # share of the rise over a wide cell that is added to this distance
 
     def apply(self, state: State) -> None:
         """Replace the grid by a finer one, and take the seeds from it."""
@@ -300,24 +291,3 @@ class FineSeeds(PointRule):
         known = wide.heights.known.ravel()[of_wide]
         state.seeds, state.waiting = fine.lowest[near], fine.lowest[known & ~near]
         state.grids = [fine]
-
-
-@dataclass(frozen=True)
-class PaperSurface(PointRule):
-    """Points close to the surface through the lowest points of ground cells are ground."""
-
-    stage: ClassVar = Stage.ACCEPTED
-    writes: ClassVar = ("limits",)
-
-    tolerance: float  # metres in level terrain
-    slope_tolerance: float  # share of the rise of the surface over one cell that is added
-
-    def apply(self, state: State) -> None:
-        """Set the limits of the heights of ground points."""
-        grid = state.grids[0]
-        heights = grid.heights.where(~grid.raised)
-        surface = inpaint(heights.values, _RELAXATIONS, heights.origin)
-        tolerance = np.minimum(steepness(surface, heights.size), _STEEPEST)
-        tolerance *= self.slope_tolerance * heights.size
-        tolerance += self.tolerance
-        state.limits = np.stack((surface - tolerance, surface + tolerance), axis=-1)

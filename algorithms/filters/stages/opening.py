@@ -1,4 +1,4 @@
-"""Cells that stand out of the ground round them, by openings or by steep rises.
+"""Cells that stand out of the ground round them: by openings, or by steep rises to them.
 
 References
 ----------
@@ -26,54 +26,54 @@ from ..pipeline import GridRule, Stage
 from ..state import GridState
 from .terrain import slope_at, smoothed
 
-# For large windows cells are taken together in squares, because the objects are large: cells along
-# the side of the largest squares, and for each size the first and the last radius in cells.
-_TOGETHER = 4
+# Large windows are applied to squares of cells, because their objects are large. The side of these
+# squares in cells, with the first and the last radius of their windows in cells; and the largest
+# side.
 _RADII = ((1, 1, 24), (2, 26, 48), (4, 52, 10_000))
+_TOGETHER = 4
 # Radii grow by this factor from scale to scale: the area of the disc doubles.
 _SCALE_STEP = math.sqrt(2.0)
 
 
 @dataclass(frozen=True)
 class ProgressiveOpening(GridRule):
-    """Openings with growing windows cut off what is narrower than these and too high above it."""
+    """A cell is raised if an opening by one of several windows lowers it by more than allowed."""
 
-    # What is too high grows with the window and with the slope of the terrain.
+    # The allowed height grows with the window and with the slope of the terrain.
 
     stage: ClassVar = Stage.OPENING
     writes: ClassVar = ("filled", "raised")
 
     largest_window: float  # radius in metres of the largest window
-    # Allowed height in metres for any window, metres that each metre of the radius adds, and metres
-    # that each metre of it adds on a slope of 45 degrees; in proportion on others.
+    # Allowed height in metres on level land: `base`, and `per_radius` for each metre of the radius.
+    # A slope of 45 degrees adds `per_slope` for each metre of the radius, others in proportion.
     base: float = 0.15
     per_radius: float = 0.04
     per_slope: float = 0.2
-    most: float = 1.5  # the largest allowance in metres
-    # A first, strict opening with this slope (rise over run) gives the surface from which the slope
-    # of the terrain is taken.
+    most: float = 1.5  # largest allowed height in metres
+    # The slope of the terrain is that of a surface without the cells that windows lower by more
+    # than this rise over run.
     first_slope: float = 0.12
-    # Metres over which this surface is smoothed, and the largest slope that counts.
-    smoothing: float = 5.0
-    steepest: float = 0.6
-    # Whether heights beyond the survey are those of its border, not filled smoothly.
+    smoothing: float = 5.0  # standard deviation in metres by which this surface is smoothed
+    steepest: float = 0.6  # largest slope of the terrain that counts, rise over run
+    # Whether heights beyond the survey are those of its border; otherwise they are filled smoothly.
     level_beyond: bool = True
-    # Windows with a larger radius in metres than houses need cut off halls only: what is `hall`
-    # metres high, and on a slope of 45 degrees `hall_per_slope` more for each metre of the radius,
-    # since a wide window cuts off land whose contours bend.
+    # Windows with a larger radius in metres than houses need are for halls only. Their allowed
+    # height is `hall`, and on a slope of 45 degrees `hall_per_slope` more for each metre of the
+    # radius, because a wide window also lowers land whose contours bend.
     usual_window: float = 24.0
     hall: float = 2.5
     hall_per_slope: float = 0.1
-    # In woods, windows are no larger than crowns of this radius in metres, except `wood_edge`
-    # metres from the edge, where houses may stand: where hardly a pulse reaches the ground, larger
-    # ones cut ridges off.
+    # Radius in metres of the largest windows in woods, that of crowns: where hardly a pulse reaches
+    # the ground, larger ones cut ridges off. Houses may stand up to `wood_edge` metres from the
+    # edge of a wood, so that all windows are used there.
     crown: float = 11.0
     wood_edge: float = 5.0
-    # All of a plateau is an object if windows cut off this share of it: its uphill side is low.
+    # All of a plateau is raised if this share of it is: its uphill side may be too low.
     plateau_share: float = 0.3
 
     def apply(self, grid: GridState, progress: Progress = SILENT) -> None:
-        """Raise the cells that stand out, and the objects."""
+        """Mark the cells that stand out, and those of objects, as raised."""
         if not self.level_beyond:
             grid.filled = grid.heights.filled().astype(np.float32)
         size, filled = grid.cells.size, grid.filled
@@ -105,8 +105,8 @@ class ProgressiveOpening(GridRule):
     def _standing_out(
         self, filled: np.ndarray, within: np.ndarray, size: float, progress: Progress
     ) -> tuple[np.ndarray, np.ndarray]:
-        """Return cells that stand out by the strict slope, and for each cell the terrain's slope
-        (rise over run) below which it stands out; `within` are cells without large windows.
+        """Return the cells that stand out on a slope of `first_slope`, and for each cell the slope
+        of the terrain below which it stands out; `within` are cells inside woods.
         """
         first = np.zeros(filled.shape, dtype=bool)
         limit = np.full(filled.shape, -np.inf, dtype=np.float32)
@@ -140,7 +140,9 @@ class ProgressiveOpening(GridRule):
         return first, limit
 
     def _limit(self, lost: np.ndarray, radius: float) -> np.ndarray:
-        """Return the terrain's slope below which cells stand out that lose some metres."""
+        """Return the slope of the terrain below which cells stand out that a window lowers by
+        some metres.
+        """
         if radius > self.usual_window:
             slope = lost - np.float32(self.hall)
             slope /= np.float32(max(self.hall_per_slope * radius, 1e-6))
@@ -173,27 +175,29 @@ def _lowest_of_blocks(grid: np.ndarray, width: int) -> np.ndarray:
 def _cut_in_blocks(
     steps: np.ndarray, opened: np.ndarray, cut: np.ndarray, zoom: int, least: int
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Return which cells lose more than some steps to an opening of blocks, and how many."""
-    # `steps` are the heights of the cells, `opened` those of the blocks, `cut` what the blocks
-    # lose. A block counts for its neighbours as well, because their lowest cell may lie beside the
-    # object.
+    """Return which cells an opening of blocks lowers by more than `least` steps, and by how many;
+    `steps` are the heights of cells, `opened` those of blocks, and `cut` what blocks lose.
+    """
+    # What a block loses counts for its neighbours as well, because the lowest cell of these may lie
+    # beside the object.
     most = within_square(np.maximum, cut, 1)
     fine = np.repeat(np.repeat(most > least, zoom, axis=0), zoom, axis=1)
     which = np.flatnonzero(fine[: steps.shape[0], : steps.shape[1]])
     row = which // steps.shape[1]
     block = (which - row * steps.shape[1]) // zoom + row // zoom * most.shape[1]
-    own = steps.ravel().take(which).astype(np.int32) - opened.ravel().take(block)
-    lost = np.minimum(own, most.ravel().take(block))
-    cut_off = lost > least
-    return which[cut_off], lost[cut_off]
+    above = steps.ravel().take(which).astype(np.int32) - opened.ravel().take(block)
+    lost = np.minimum(above, most.ravel().take(block))
+    stands_out = lost > least
+    return which[stands_out], lost[stands_out]
 
 
 @dataclass(frozen=True)
 class SteepRises(GridRule):
-    """Cells stand out that are higher than another, on any scale, by more than terrain allows."""
+    """A cell is raised if another one within some radius is lower by more than allowed for it."""
 
-    # All points in a disc have the allowance of its radius: steps along Vosselman's line. The slope
-    # of the terrain, averaged over about the radius, is added to the threshold.
+    # The allowed height of Vosselman grows with the distance. Here it grows in steps: all cells of
+    # a disc have that of its radius. The slope of the terrain, averaged over about the largest
+    # radius, is added to the slope threshold.
 
     stage: ClassVar = Stage.OPENING
     writes: ClassVar = ("raised",)
@@ -201,11 +205,12 @@ class SteepRises(GridRule):
     radius: float  # largest distance in metres over which cells are compared
     slope: float  # slope threshold in degrees
     height: float  # height threshold in metres
-    # Whether heights above a surface that follows the terrain are compared (white top-hat).
+    # Whether heights above a surface that follows the terrain are compared (white top-hat), in
+    # place of elevations.
     top_hat: bool = True
 
     def apply(self, grid: GridState, progress: Progress = SILENT) -> None:
-        """Raise the cells that stand out."""
+        """Mark the cells that stand out as raised."""
         known, size = grid.heights.known, grid.cells.size
         reach = max(round(self.radius / size, 6), 1.0)
         # Single precision (better than a millimetre) halves the time that the discs take.

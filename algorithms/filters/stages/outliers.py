@@ -1,4 +1,4 @@
-"""Low outliers: points far below everything round them. Multipath, birds under bridges, faults.
+"""Low outliers: single points far below all others round them, as by multipath or faults.
 
 References
 ----------
@@ -27,35 +27,33 @@ from ..pipeline import GridRule, PointRule, Rule, Stage
 from ..state import GridState, State
 from .seeds import DENSE_SPACING
 
-# Metres that a cell of an even surface is off the median of the 3 x 3 cells round it, at most.
+# Largest distance in metres of a cell of an even surface from the median of the 3 x 3 cells round
+# it.
 _EVEN = 0.3
-
-_CELL = 1.0  # metres: side of the cells of the ground below which points are searched
-_CHUNK = 1 << 20  # points that are searched at a time
+# `below_ground`: side in metres of the cells of the ground, and points that are compared at a time.
+_CELL = 1.0
+_CHUNK = 1 << 20
 
 
 @dataclass(frozen=True)
 class Corroborated(Rule):
-    """An exception: pits that other cells some metres away are as low as are ground."""
+    """An exception: a pit is ground if enough other cells some metres away are as low."""
 
     # Under dense canopy the few cells with ground points are pits, but they lie on one surface.
-    # Faults are scattered: hardly any other cell lies at their level, or far fewer than on the even
-    # surface above them.
+    # Faults are scattered: no cells, or far fewer than on the even surface above, are as low.
 
-    # The witnesses of a pit are the cells between these distances from it, in metres; nearer ones
-    # may belong to the same fault.
+    # Distances in metres from the pit between which other cells are its witnesses; nearer ones may
+    # belong to the same fault.
     nearest: float = 3.0
     farthest: float = 10.0
     apart: float = 0.5  # metres between witnesses
-    # A witness is as low as a pit if they differ by at most `level` metres, plus `level_slope` for
-    # each metre of distance, and by at most this share of the depth of the pit.
+    # Largest difference in height of a witness that is as low as the pit: `level` metres, and
+    # `level_slope` for each metre of distance, but at most this share of the depth of the pit.
     level: float = 0.5
     level_slope: float = 0.2
     depth_share: float = 0.33
-    # Least number of witnesses that are as low, and their least share of the number of witnesses on
-    # an even surface above the pit.
-    least: int = 4
-    least_share: float = 0.15
+    least: int = 4  # least number of witnesses that are as low
+    least_share: float = 0.15  # their least number as a share of even witnesses above the pit
 
     def of_ground(
         self,
@@ -64,9 +62,9 @@ class Corroborated(Rule):
         depth: np.ndarray,
         even: np.ndarray | None = None,
     ) -> np.ndarray:
-        """Return the pits that are ground; boolean, shape (rows, columns)."""
-        # `pits` are cells far below those next to them, `depth` is their depth in metres, and
-        # `even` marks the cells that lie on an even surface, if they are known already.
+        """Return the pits that are ground, bool (rows, columns), given their depths in metres, and
+        the cells on an even surface if they are known already.
+        """
         result = np.zeros(pits.shape, dtype=bool)
         row, column = np.nonzero(pits)
         if not len(row):
@@ -77,24 +75,24 @@ class Corroborated(Rule):
         even = np.pad(even_cells(grid) if even is None else even, reach)
         width = heights.shape[1]
         centre = (row + reach) * width + column + reach
-        own, heights, even = heights.take(centre), heights.ravel(), even.ravel()
-        near, above, below = np.zeros((3, len(row)), dtype=np.int32)
+        of_pit, heights, even = heights.take(centre), heights.ravel(), even.ravel()
+        as_low, above, below = np.zeros((3, len(row)), dtype=np.int32)
         most = (self.depth_share * depth[row, column]).astype(np.float32)
         for offset, at_most in zip((rows * width + columns).tolist(), level.tolist()):
             allowed = np.minimum(most, np.float32(at_most))
             there = centre + offset
-            rise = heights.take(there) - own
-            near += np.abs(rise) <= allowed
+            rise = heights.take(there) - of_pit
+            as_low += np.abs(rise) <= allowed
             above += (rise > allowed) & even.take(there)
             below += rise < -allowed
         enough = np.maximum(self.least, np.maximum(self.least_share * above, below))
-        result[row, column] = near >= enough
+        result[row, column] = as_low >= enough
         return result
 
     def _witnesses(self, size: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Return the offsets of witnesses in rows and columns, and how far off they may be."""
+        """Return the offsets of witnesses in rows and columns, and their largest differences."""
         reach = int(np.ceil(self.farthest / size))
-        # Not all narrow cells, but as many as there are of wide ones.
+        # Of narrow cells only some are witnesses, so that there are as many as of wide cells.
         stride = max(round(self.apart / size), 1)
         steps = np.arange(-(reach // stride), reach // stride + 1) * stride
         rows, columns = (axis.ravel() for axis in np.meshgrid(steps, steps, indexing="ij"))
@@ -105,30 +103,26 @@ class Corroborated(Rule):
 
 @dataclass(frozen=True)
 class UnderCanopy(Rule):
-    """An exception: pits are ground where the lowest points round them are crowns."""
+    """An exception: a pit is ground if the lowest points round it are those of a canopy."""
 
     # Where hardly a pulse gets through, as in rain forest, hardly any other point is as low, so
-    # that the pits are not `Corroborated`. But an outlier lies below a surface, and the lower side
-    # of crowns is none.
+    # that no pit is `Corroborated`. But outliers lie below a surface, and a canopy has none.
 
-    # The lowest points are those of a canopy if their median distance from a plane is more than so
-    # many metres.
+    # Least median distance in metres of the lowest points of a canopy from a plane through them.
     roughness: float = 2.5
-    # Distance up to which they are looked at, in metres and in cells.
+    # Radius of the surroundings, the larger one of metres and cells.
     reach: float = 6.0
     reach_cells: int = 4
-    # A pit that is deeper than this multiple of the distance is an outlier all the same.
-    depth: float = 6.0
-    # Metres round the pit: the plane is fitted without the points there, which may belong to it.
-    pit: float = 2.0
+    depth: float = 6.0  # largest depth of a pit that is ground, in such median distances
+    pit: float = 2.0  # radius in metres round the pit of points that do not count for the plane
 
     def of_ground(
         self, pits: np.ndarray, points: Points, cells: Cells, lowest: np.ndarray | None = None
     ) -> np.ndarray:
         """Return the pits that are ground; `lowest` is the lowest point of each cell, if known."""
-        found = np.zeros(pits.shape, dtype=bool)
+        ground = np.zeros(pits.shape, dtype=bool)
         if not pits.any():
-            return found
+            return ground
         margin = math.ceil(max(self.reach / cells.size, self.reach_cells))
         grids = LowestOfCells.of(points, cells, margin, lowest)
         rough = []
@@ -136,21 +130,22 @@ class UnderCanopy(Rule):
             plane, above = around.plane()
             distance = around.median(np.abs(above))
             rough.append((distance > self.roughness) & (plane[:, 2] <= self.depth * distance))
-        found[pits] = np.concatenate(rough)
-        return found
+        ground[pits] = np.concatenate(rough)
+        return ground
 
 
 @dataclass(frozen=True)
 class NarrowPits(GridRule):
-    """A cell in a narrow pit that is too deep for terrain is a low outlier."""
+    """The lowest point of a cell is a low outlier if the cell is too deep a pit for terrain."""
 
-    # The grid is closed by 3 x 3 cells (the opening of -z). Cells that the closing raises by more
-    # than `slope` times their size are outliers (Pingel et al. 2013).
+    # Pits are cells that a closing of the grid by 3 x 3 cells raises (Pingel et al. 2013: an
+    # opening of -z).
 
     stage: ClassVar = Stage.OUTLIERS
     writes: ClassVar = ("heights",)
 
-    slope: float = 5.0  # rise over run, far above that of any terrain
+    # Least ratio of the depth of a pit to the side of a cell, far above the slope of any terrain.
+    slope: float = 5.0
     corroborated: Corroborated | None = Corroborated()
     under_canopy: UnderCanopy | None = UnderCanopy()
 
@@ -173,22 +168,22 @@ class NarrowPits(GridRule):
 
 @dataclass(frozen=True)
 class IsolatedLowPoints(GridRule):
-    """A lone point below an even surface is a low outlier, as in points from images."""
+    """The lowest point of a cell is a low outlier if it lies alone below an even surface."""
 
-    # The other points of its cell and most cells next to it lie on the surface. Hardly any other
-    # cell some metres away is as low.
+    # Such points occur in clouds from images. The other points of the cell and most of the cells
+    # next to it lie on the surface, and hardly any cell some metres away is as low.
 
     stage: ClassVar = Stage.OUTLIERS
     writes: ClassVar = ("heights",)
 
     depth: float = 0.6  # least depth in metres below the cells round it
-    least_even: int = 6  # of the eight cells round it
-    least_points: int = 4  # of its cell
-    gap: float = 0.7  # the next point of the cell is higher by at least this share of the depth
+    least_even: int = 6  # least number of even cells in the 3 x 3 cells round it
+    least_points: int = 4  # least number of points in its cell
+    gap: float = 0.7  # least height of the next point of the cell above it, as a share of the depth
     corroborated: Corroborated | None = Corroborated()
 
     def apply(self, grid: GridState, progress: Progress = SILENT) -> None:
-        """Remove the cells of lone points."""
+        """Remove the lone points."""
         from scipy import ndimage
 
         heights, cells, z = grid.heights, grid.cells, grid.points.z
@@ -211,22 +206,22 @@ class IsolatedLowPoints(GridRule):
 
 @dataclass(frozen=True)
 class DenseOutliers(PointRule):
-    """In a dense cloud of a laser, points far below all others round them are low noise."""
+    """In a dense cloud of a laser, a point far below all others round it is low noise."""
 
-    # Most cells of half a metre or a metre may have such a point. Here cells are so narrow that few
-    # have one. In clouds from images such points are parts of the ground beside crowns and roofs,
-    # where the surface sags.
+    # Most cells of half a metre or a metre may have such a point, but few of the narrow ones that
+    # are used here. In clouds from images such points are ground beside crowns and roofs, where the
+    # surface sags.
 
     stage: ClassVar = Stage.LOW_NOISE
     writes: ClassVar = ("points", "grids", "low_noise")
 
-    # Side of the cells as a multiple of the usual distance between points. With so few points
-    # hardly any cell has an outlier, and hardly any is empty.
+    # Side of the cells in spacings of the points: so narrow that hardly any has an outlier, and so
+    # wide that hardly any is empty.
     spacings: float = 3.0
-    least_spacing: float = 0.02  # a smaller distance between points counts as this, in metres
+    least_spacing: float = 0.02  # least spacing in metres; a smaller one counts as this
     depth: float = 1.0  # least depth in metres below the cells round it
-    passes: int = 3  # of several outliers in one cell, each pass finds the lowest
-    many: float = 1e-4  # if more than this share of the points are such outliers, the log says so
+    passes: int = 3  # each finds the lowest of the outliers in a cell
+    many: float = 1e-4  # share of outliers among the points from which on the log tells of them
     corroborated: Corroborated | None = Corroborated()
 
     def apply(self, state: State) -> None:
@@ -242,14 +237,14 @@ class DenseOutliers(PointRule):
         state.add_low_noise(found)
 
     def find(self, points: Points) -> np.ndarray:
-        """Return which points are outliers; all False if points are farther apart than 0.17 m."""
-        lows = np.zeros(points.count, dtype=bool)
+        """Return which points are outliers; none in a cloud that is not dense."""
+        outliers = np.zeros(points.count, dtype=bool)
         apart = spacing(points, self.least_spacing)
         if apart > DENSE_SPACING:
-            return lows
+            return outliers
         cells = Cells.over(points, self.spacings * apart)
         for number in range(self.passes):
-            heights = cells.minimum(points.z, ~lows if number else slice(None))
+            heights = cells.minimum(points.z, ~outliers if number else slice(None))
             grid = HeightGrid(heights, cells.size, cells.first)
             depth = depth_of_pits(grid)
             pits = depth > self.depth
@@ -257,14 +252,14 @@ class DenseOutliers(PointRule):
                 pits &= ~self.corroborated.of_ground(grid, pits, depth)
             if not pits.any():
                 break
-            # The lower half of the pit.
+            # Points in the lower half of the pit are outliers.
             limit = np.where(pits, heights + 0.5 * depth, -np.inf).ravel()
-            lows |= points.z < limit.take(cells.index)
-        return lows
+            outliers |= points.z < limit.take(cells.index)
+        return outliers
 
 
 def depth_of_pits(grid: HeightGrid) -> np.ndarray:
-    """Return how many metres a closing by 3 x 3 cells raises each cell; 0 where there is none."""
+    """Return how many metres a closing by 3 x 3 cells raises each cell; 0 without a height."""
     filled = grid.filled()
     return np.where(grid.known, closing_by_square(filled, 1) - filled, 0.0)
 
@@ -278,8 +273,8 @@ def even_cells(grid: HeightGrid) -> np.ndarray:
 def below_ground(
     points: Points, ground: np.ndarray, depth: float, progress: Progress = SILENT
 ) -> np.ndarray:
-    """Return which points (n,), never ground, lie `depth` metres, and the rise over a cell, below
-    the lowest ground points of cells of 1 m; none where there is no ground.
+    """Return which points (n,) that are not ground lie more than `depth` metres, plus the rise of
+    the ground over a cell, below the lowest ground points of cells of 1 m.
     """
     below = np.zeros(points.count, dtype=bool)
     if not ground.any():

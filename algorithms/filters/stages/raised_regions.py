@@ -1,4 +1,4 @@
-"""Raised regions of cells between steps, such as rocks and banks."""
+"""Raised regions: groups of raised cells without steps between them, such as rocks and banks."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from ..pipeline import Rule
 from ..state import GridState
 from .regions import bends
 
-# Metres from the mean of two opposite neighbours within which a cell is even.
+# Largest distance in metres of an even cell from the mean of two opposite neighbours.
 _BEND = 0.15
 # Regions of the first and of the second cell of pairs of cells; -1 for cells that are not raised.
 _Pairs = tuple[np.ndarray, np.ndarray]
@@ -27,19 +27,19 @@ class RaisedRegions(NamedTuple):
     size: float  # side of a cell in metres
     shape: tuple[int, int]  # rows and columns of the grid
     cells: np.ndarray  # intp (n,): The raised cells, in the flattened grid
-    number: np.ndarray  # int64 (n,): Region of each of these cells
+    number: np.ndarray  # int64 (n,): The region of each of these cells
     # float (n,): Height of each of these cells, and its height above the ground, in metres.
     heights: np.ndarray
     heights_above: np.ndarray
-    # float64 (regions,): Square metres; mean height above the ground in metres.
-    area: np.ndarray
-    above: np.ndarray
+    area: np.ndarray  # float64 (regions,): Square metres
+    above: np.ndarray  # float64 (regions,): Mean height above the ground in metres
     filled: np.ndarray  # float32 (rows, columns): Heights of all cells in metres, without NaN
-    # Pairs of regions between which there are level steps, drops and rises, for two directions, and
-    # the first cells of the level steps.
+    # The borders of regions, once from each side: the pairs of regions (first and second) without a
+    # step between their cells, with a drop and with a rise from the first to the second; and the
+    # cells of the first region where there is no step.
     borders: list[list[_Pairs]]
     level_cells: list[np.ndarray]
-    cut: np.ndarray  # float64 (regions,): Sides of cells along the border of the survey
+    cut: np.ndarray  # float64 (regions,): Number of sides of cells along the border of the survey
 
     @property
     def even(self) -> np.ndarray:
@@ -48,7 +48,7 @@ class RaisedRegions(NamedTuple):
 
     @property
     def mean_width(self) -> np.ndarray:
-        """Mean width of each region in metres, that of a strip with its area and border."""
+        """Mean width of each region in metres: that of a long strip with its area and border."""
         sides = np.zeros(len(self.area))
         for kinds in self.borders:
             for first, _ in kinds:
@@ -56,20 +56,20 @@ class RaisedRegions(NamedTuple):
         return 2.0 * self.area / np.maximum(sides * self.size, self.size)
 
     def widths(self, ground: np.ndarray) -> np.ndarray:
-        """Return how many metres of the border of each region are level in one place, given the
-        regions that are ground (bool, one each, and a last one for all other cells).
+        """Return the length in metres of the longest level piece of the border of each region with
+        the ground: regions of a mask (regions + 1,), whose last element is for cells not raised.
         """
         from scipy import ndimage
 
-        level, own = np.zeros(self.shape, dtype=bool), []
+        level, pieces = np.zeros(self.shape, dtype=bool), []
         for (pairs, *_), cells in zip(self.borders, self.level_cells):
             is_ground = ground[pairs[1]]
             level.ravel()[cells[is_ground]] = True
-            own.append((pairs[0][is_ground], cells[is_ground]))
+            pieces.append((pairs[0][is_ground], cells[is_ground]))
         place, _ = ndimage.label(level, np.ones((3, 3)))
         length = np.bincount(place.ravel()) * self.size
         widths = np.zeros(len(self.area))
-        for region, cells in own:
+        for region, cells in pieces:
             np.maximum.at(widths, region, length[place.ravel()[cells]])
         return widths
 
@@ -83,10 +83,10 @@ class RaisedRegions(NamedTuple):
 def raised_regions(
     grid: GridState, raised: np.ndarray, steps: Steps, judges_gaps: bool
 ) -> RaisedRegions:
-    """Return the regions of the raised cells that no step parts, given pairs of neighbours of which
-    at least one is raised.
+    """Return the regions of raised cells without steps between them, given the steps between all
+    neighbours of which at least one is raised.
     """
-    # If gaps are judged, a cell without a point is no evidence of a gentle border.
+    # If gaps are judged, a border at a cell without a point is not known to be gentle.
     cell, neighbour, sign = steps
     seen = grid.heights.known.ravel() if judges_gaps else np.ones(raised.size, dtype=bool)
     up = raised.ravel()
@@ -119,18 +119,18 @@ def _sides_outside(surveyed: np.ndarray) -> np.ndarray:
 
 
 def even_cells(filled: np.ndarray) -> np.ndarray:
-    """Return which cells (rows, columns) are about as high as the mean of opposite neighbours."""
+    """Return which cells (rows, columns) are as high as the mean of two opposite neighbours."""
     return np.logical_or(*(bends(filled) <= _BEND))
 
 
 def _numbered(up: np.ndarray, cell: np.ndarray, neighbour: np.ndarray) -> tuple[np.ndarray, int]:
-    """Return the region of each cell, -1 where none is raised, and their number, from raised cells
-    (rows, columns) and pairs of them, side by side or one above the other, without a step.
+    """Return the region of each cell (-1 if it is not raised) and the number of regions, given the
+    raised cells (rows, columns) and the pairs of neighbours that are in one region.
     """
     from scipy import ndimage
 
-    # A grid of cells with their links between them is labelled: a graph of scipy.sparse would be
-    # as fast, but takes longer to import than a small file to filter.
+    # The labelled grid has an element for each cell, and between these one for each link. A graph
+    # of scipy.sparse would be as fast, but its import takes longer than to filter a small file.
     (rows, columns), width = up.shape, 2 * up.shape[1] - 1
     linked = np.zeros((2 * rows - 1, width), dtype=bool)
     linked[::2, ::2] = up
@@ -144,9 +144,7 @@ def _numbered(up: np.ndarray, cell: np.ndarray, neighbour: np.ndarray) -> tuple[
 def _borders(
     region: np.ndarray, up: np.ndarray, steps: Steps, seen: np.ndarray
 ) -> tuple[list[list[_Pairs]], list[np.ndarray]]:
-    """Return, for each of two directions, the pairs of regions with level steps, drops and rises
-    between them, and the first cells of the level steps.
-    """
+    """Return `RaisedRegions.borders` and `RaisedRegions.level_cells`."""
     cell, neighbour, sign = steps
     borders, level_cells = [], []
     for from_, to, drop in ((cell, neighbour, -1), (neighbour, cell, 1)):
@@ -160,15 +158,15 @@ def _borders(
 
 @dataclass(frozen=True)
 class Rocks(Rule):
-    """A region that rises more unevenly than roofs, bridges and woods is a rock."""
+    """A region is a rock if its heights, and its heights above the ground, vary much."""
 
-    # A roof or a bridge is level; a wood on a slope is equally high above the ground everywhere.
+    # The heights of a roof or a bridge vary little, and so do the heights above the ground of a
+    # wood, also on a slope.
 
     area: float = 200.0  # least area in square metres
-    # Least standard deviation in metres of its heights, and of its heights above the ground.
-    deviation: float = 5.0
-    # A roof is lower, or level: then a band of heights, in metres, holds more than this share of
-    # its cells.
+    deviation: float = 5.0  # least standard deviation in metres, of both
+    # Largest share of the cells within a band of heights of this width in metres: that of a roof is
+    # larger, unless the roof is very steep.
     band: float = 3.0
     band_share: float = 1.0 / 3.0
 
@@ -189,19 +187,20 @@ class Rocks(Rule):
 
 @dataclass(frozen=True)
 class LowBanks(Rule):
-    """A low, narrow and even strip is a bank of a field, a dyke or the rim of a ditch."""
+    """A region is a bank (of a field, a dyke or a ditch) if it is low, narrow and even."""
 
-    # Of a hedge or a wall, cells have points on the ground beside it; of a row of cars, they are
-    # not even. Platforms of ISPRS sample 42 need it.
+    # Cells of a hedge or a wall also have points on the ground beside it, and those of a row of
+    # cars are not even. Platforms of ISPRS sample 42 need this rule.
 
     area: float = 20.0  # least area in square metres
     height: float = 1.2  # largest mean height above the ground in metres
     width: float = 6.0  # largest mean width in metres
     even_share: float = 0.7  # least share of the cells that are even
-    # On a larger share of its border than this, another strip as high is beside it: it is one of a
-    # row, as of panels or planters. 1 if that does not matter.
+    # Largest share of the border beyond which another region as high follows. Regions with more are
+    # one of a row, such as panels or planters. 1 for no limit.
     most_in_row: float = 0.8
-    beyond: float = 0.35  # the strip beside it may be lower by this share of the drop between them
+    # The other region may be lower by this share of the drop into the gap between them.
+    beyond: float = 0.35
 
     def fits(self, regions: RaisedRegions) -> np.ndarray:
         """Return which regions are banks; boolean, shape (regions,)."""
@@ -214,23 +213,23 @@ class LowBanks(Rule):
         return is_bank & (regions.above <= self.height) & (share >= self.even_share)
 
     def _in_rows(self, regions: RaisedRegions) -> np.ndarray:
-        """Return which regions have another as high beside them on most of their border."""
+        """Return which regions have another one as high beside them on most of their border."""
         number = np.zeros(regions.shape, dtype=np.int32)
         number.ravel()[regions.cells] = regions.number + 1
         filled, reach = regions.filled, max(round(self.width / regions.size / 2.0), 1)
         closed = closing_by_square(filled, reach)
-        into, border = np.zeros((2, len(regions.area)))
+        of_gaps, of_border = np.zeros((2, len(regions.area)))  # sides of cells
         row, column = np.divmod(regions.cells, regions.shape[1])
         for up, right in ((1, 0), (-1, 0), (0, 1), (0, -1)):
             inside = are_inside(row + up, column + right, regions.shape)
-            here, own = regions.cells[inside], regions.number[inside]
+            here, region = regions.cells[inside], regions.number[inside]
             there = here + up * regions.shape[1] + right
-            beside = number.take(there) != own + 1
-            here, there, own = here[beside], there[beside], own[beside]
+            beside = number.take(there) != region + 1
+            here, there, region = here[beside], there[beside], region[beside]
             drop = filled.take(here) - filled.take(there)
-            # Of the gap to the other, the closing fills all but a share of the drop.
+            # The closing fills a gap up to the lower one of the two regions.
             is_gap = (number.take(there) == 0) & (drop > 0.0)
             is_gap &= closed.take(there) >= filled.take(here) - self.beyond * drop
-            border += np.bincount(own, minlength=len(border))
-            into += np.bincount(own, is_gap, len(border))
-        return into > self.most_in_row * border
+            of_border += np.bincount(region, minlength=len(of_border))
+            of_gaps += np.bincount(region, is_gap, len(of_border))
+        return of_gaps > self.most_in_row * of_border

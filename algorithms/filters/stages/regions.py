@@ -9,18 +9,18 @@ import numpy as np
 
 from ...grids.morphology import within_square
 
-# Least share of a pit's border that must be a rise.
+# Least share of the border of a pit that rises.
 _PIT_SHARE = 0.9
-# Rounds in which regions that others hid are tested again.
+# Most rounds in which regions are searched, each without those that were found before.
 _ROUNDS = 3
 # Wider regions, in metres, may be table mountains.
 _WIDE = 25.0
-# The side of a region is a wall if nearly all of its fall within the second of these distances, in
-# metres, is within the first. Blocks in which objects are searched are 2 m wide.
+# A side of a region is a wall if nearly all of its drop within `_OF_SIDE` metres is a drop within
+# `_OF_WALL` metres: the side of the blocks in which objects are searched.
 _OF_WALL = 2.0
 _OF_SIDE = 4.0
-# Metres from the mean of two opposite neighbours that half of the cells of a rough region are off,
-# at least: of roofs, without installations, they are 0.01 to 0.05 m off.
+# A region is rough if the median distance of its cells from the mean of two opposite neighbours is
+# at least this, in metres. On roofs without installations it is 0.01 to 0.05 m.
 _ROUGH = 0.08
 
 
@@ -41,16 +41,15 @@ class Border(NamedTuple):
 
     def length(self) -> np.ndarray:
         """Return the length of each region's border in cells, if neighbours are one apart."""
-        all_ = np.ones(len(self.sign), dtype=bool)
+        pairs = np.ones(len(self.sign), dtype=bool)
         # Each cell of a straight border has three neighbours beyond it.
-        return self._total(all_, all_) / 3.0
+        return self._total(pairs, pairs) / 3.0
 
     def drops(
         self, removed: np.ndarray, sign: int
     ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-        """Count, for each region, pairs of cells with a drop (sign 1) or rise (-1), with a known
-        neighbour, and all pairs, to regions that are not removed; and return the mean height of the
-        drops in metres.
+        """Return, for the border of each region with regions that are not removed, the number of
+        drops (`sign` 1) or rises (-1), of known and of all pairs, and the mean drop in metres.
         """
         pairs = ~(removed[self.first] | removed[self.second])
         known = pairs & (self.first > 0) & (self.second > 0)
@@ -64,7 +63,7 @@ class Border(NamedTuple):
     def _total(
         self, first: np.ndarray, second: np.ndarray, weights: np.ndarray | None = None
     ) -> np.ndarray:
-        """Count pairs, or add up their weights, for the region of each of their cells."""
+        """Return the number of pairs, or the sum of their weights, by the region of each cell."""
         total = np.zeros(self.regions)
         for region, own in ((self.first, first), (self.second, second)):
             counted = weights if weights is None else weights[own]
@@ -120,8 +119,8 @@ class Regions:
         return found[self.number]
 
     def without_ramps(self, found: np.ndarray, width: float) -> np.ndarray:
-        """Return the cells of those regions whose border is nowhere level over `width` metres in
-        one place.
+        """Return the found cells without those of regions to which a ramp leads: whose border is
+        level over `width` metres in one place.
         """
         from scipy import ndimage
 
@@ -149,8 +148,8 @@ class Regions:
 
     @cached_property
     def _walls(self) -> np.ndarray:
-        """The share of the fall round each region that is at once; 1 for those that are not wide
-        and rough, which are no mountains whatever their sides.
+        """The median share of the drop at the sides of each region that is a drop at a wall; 1 for
+        regions that are narrow or smooth, which are no table mountains.
         """
         from scipy import ndimage
 
@@ -159,21 +158,21 @@ class Regions:
         bend = np.fmax(*bends(heights))
         rough = ndimage.median(bend, np.where(np.isfinite(bend), number, 0), wide) >= _ROUGH
         low = np.nan_to_num(heights, nan=np.inf)
-        at_once, all_ = (
+        at_wall, at_side = (
             heights - within_square(np.minimum, low, max(round(reach / self._size), 1))
             for reach in (_OF_WALL, _OF_SIDE)
         )
         rim = within_square(np.minimum, number, 1) != within_square(np.maximum, number, 1)
-        rim &= all_ > 0.0
-        share = np.divide(at_once, all_, out=np.ones(number.shape), where=rim)
+        rim &= at_side > 0.0
+        share = np.divide(at_wall, at_side, out=np.ones(number.shape), where=rim)
         of_wide = ndimage.median(share, np.where(rim, number, 0), wide)
         walls[wide[rough]] = of_wide[rough]
         return walls
 
 
 def bends(heights: np.ndarray) -> np.ndarray:
-    """Return how many metres each cell is off the mean of its two opposite neighbours, north to
-    south and east to west, shape (2, rows, columns); NaN where one has no height.
+    """Return how many metres each cell lies from the mean of two opposite neighbours, north and
+    south, east and west, shape (2, rows, columns); NaN where one of them has no height.
     """
     found = np.full((2, *heights.shape), np.nan, dtype=heights.dtype)
     for of_axis, z in ((found[0], heights), (found[1].T, heights.T)):

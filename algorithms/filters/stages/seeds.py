@@ -15,27 +15,27 @@ from ...grids.cells import Cells
 from ..pipeline import PointRule, Stage
 from ..state import GridState, State
 
-# Largest spacing in metres at which cells hold many points, and show breaks by themselves.
+# Largest spacing in metres of a dense cloud, whose cells hold many points and have no gaps at
+# breaks.
 DENSE_SPACING = 0.17
 _NO_SEED = "No point can be taken for ground with certainty."
-# Metres above the lowest point of their cell up to which points count as near it, and on slopes
-# what the ground rises within the cell.
+# Openness: metres above the lowest point of a cell, beside the rise of the ground within it, up to
+# which points are low; and the side in metres of the square in which they are counted.
 _NEAR = 0.6
-# Side in metres of the square in which they are counted.
 _WIDTH = 5.0
 _POINTS_A_PART = 1 << 16
-# States of a point on a grid.
+# What a point is on a grid.
 _HIDDEN = 0  # not the lowest of its cell
-_OBJECT = 1  # on an object, or a low outlier
-_OPEN = 2  # perhaps ground
-_GROUND = 3
+_OBJECT = 1  # the lowest of its cell, but on an object, or a low outlier
+_OPEN = 2  # the lowest of its cell, which may be ground
+_GROUND = 3  # the lowest of its cell, which is ground
 
 
 @dataclass(frozen=True)
 class LowestPoints(PointRule):
-    """The lowest point of each cell may be ground."""
+    """Only the lowest point of each cell can be a seed of the ground."""
 
-    # It is chance where cells begin, so there can be a second grid, half a cell apart.
+    # Where cells begin is arbitrary, so there can be a second grid, moved by half a cell.
 
     stage: ClassVar = Stage.LOWEST
     writes: ClassVar = ("grids",)
@@ -55,31 +55,30 @@ class LowestPoints(PointRule):
 
 @dataclass(frozen=True)
 class Seeds(PointRule):
-    """The lowest points of ground cells are seeds; other lowest points wait."""
+    """The lowest points of ground cells are seeds; other lowest points may join them later."""
 
-    # A point that is the lowest of its cell on both of two grids must be ground on both; one that
-    # is the lowest on only one grid must be ground on that one.
+    # Of two grids, a point must be ground on each on which it is the lowest of its cell.
 
     stage: ClassVar = Stage.SEEDS
     writes: ClassVar = ("grids", "seeds", "waiting")
 
-    objects_wait: bool = False  # whether lowest points on objects may become ground later
-    hint: str | None = None  # what to check if there is no seed; None if others may follow
+    objects_wait: bool = False  # whether lowest points on objects may join later as well
+    hint: str | None = None  # what the user can check if there is no seed; None for no error
 
     def apply(self, state: State) -> None:
-        """Take seeds from the grids; only the first of these is needed from then on."""
+        """Take the seeds from the grids; later rules need only the first of these."""
         if len(state.grids) == 1:
             (grid,) = state.grids
             ground, is_open = self._judged(grid)
             state.seeds, state.waiting = grid.lowest[ground], grid.lowest[~ground & is_open]
         else:
             state.seeds, state.waiting = self._of_both(state)
-            del state.grids[1:]  # four bytes a point
+            del state.grids[1:]  # they take four bytes a point
         if self.hint and not len(state.seeds):
             raise BareEarthError(f"{_NO_SEED} {self.hint}")
 
     def _judged(self, grid: GridState) -> tuple[np.ndarray, np.ndarray]:
-        """Return which lowest points are ground, and which may be."""
+        """Return which lowest points are ground, and which may be ground."""
         known = grid.heights.known
         is_open = known if self.objects_wait else known & ~grid.objects
         return grid.is_ground.ravel()[grid.cell], is_open.ravel()[grid.cell]
@@ -99,12 +98,12 @@ class Seeds(PointRule):
 
 @dataclass(frozen=True)
 class KnownGround(PointRule):
-    """The lowest points of known ground are seeds."""
+    """The lowest known ground point of each cell is a seed."""
 
     stage: ClassVar = Stage.SEEDS
     writes: ClassVar = ("seeds",)
 
-    cell: float = 1.0  # side in metres of the cells whose lowest known points are taken
+    cell: float = 1.0  # side of the cells in metres
 
     def apply(self, state: State) -> None:
         """Add the known points to the seeds."""
@@ -122,15 +121,15 @@ class KnownGround(PointRule):
 
 @dataclass(frozen=True)
 class Woods(PointRule):
-    """Cells are under trees where many points are of pulses with several returns."""
+    """A cell is under trees if many points round it are of pulses with several returns."""
 
-    # On roofs, rocks and fields their share is below a tenth, in woods a quarter to all. Where the
-    # file has no returns, no cell is known to be under trees.
+    # On roofs, rocks and fields their share is below 0.1, in woods 0.25 to 1. In a file without
+    # return numbers, no cell is known to be under trees.
 
     stage: ClassVar = Stage.LOWEST
     writes: ClassVar = ("grids",)
 
-    share: float = 0.2  # least share of such points in the surroundings
+    share: float = 0.2  # least share of such points
     width: float = 5.0  # side in metres of the square in which they are counted
 
     def apply(self, state: State) -> None:
@@ -160,10 +159,10 @@ def share_around(counted: np.ndarray, cells: Cells, width: float, default: float
 
 
 def openness(points: Points, cells: Cells, lowest: np.ndarray, rise: np.ndarray) -> np.ndarray:
-    """Return the share of points near the lowest of their cell, in the surroundings of each cell
-    (rows, columns): about 1 on open ground, on roofs and where points are sparse, 0.2 to 0.6 under
-    trees.
+    """Return the share of low points round each cell (rows, columns), given the lowest point of
+    each cell and the rise of the ground over a cell in metres.
     """
+    # It is about 1 on open ground, on roofs and where points are sparse; under trees 0.2 to 0.6.
     heights = np.zeros(rise.size)
     heights[cells.index[lowest]] = points.z[lowest]
     highest, near = heights + rise.ravel() + _NEAR, np.empty(points.count, dtype=bool)

@@ -1,4 +1,4 @@
-"""Shrubs and canopies that are wider than a few cells, so that their own points surround a seed."""
+"""Seeds on shrubs and canopies that are so wide that other points on them surround these seeds."""
 
 from __future__ import annotations
 
@@ -18,39 +18,35 @@ from ..side_planes import LEAST, Sides
 from ..state import State
 from .breaks import mean_surface, openness_of
 
-# Seeds of blocks are neighbours within this multiple of their width, but not within this share of
-# it.
-_REACH = 5.0
+# Distances between which the lowest seeds of blocks are neighbours, in widths of a block.
 _APART = 0.5
-# Places at which planes are laid at a time.
-_AT_ONCE = 1 << 11
+_REACH = 5.0
+_AT_ONCE = 1 << 11  # places at which planes are fitted at a time
 
 
 @dataclass(frozen=True)
 class Shrubs(PointRule):
-    """A seed above the planes of all sides through the lowest seeds of blocks is a shrub."""
+    """A seed above the planes of all sides through the lowest seeds of blocks is on a shrub."""
 
-    # Most of the seeds next to it may belong to the same shrub, but the lowest of a block that is
-    # as wide lies beside it. Where there are few seeds, their planes reach farther than those that
-    # `Plants` compares.
+    # The seeds next to it may be on the same shrub, but the lowest seed of a block that is as wide
+    # as the shrub lies beside it. Where there are few seeds, these planes reach farther than those
+    # of `Plants`.
 
     stage: ClassVar = Stage.SEEDS
     writes: ClassVar = ("seeds", "waiting", "rise")
 
     widths: tuple[float, ...] = (2.0, 4.0)  # sides of the blocks in metres, one after another
-    # Least height in metres above the planes, and the share of the width of a block that a slope of
-    # 45 degrees adds to it.
+    # Least height in metres above the planes, and the share of the width of a block that is added
+    # on a slope of 45 degrees, on others in proportion.
     height: float = 0.3
     per_slope: float = 0.15
-    misfit: float = 0.5  # the share of the misfit of a plane that is added
-    # Metres: a group of such seeds that is as long is a bank or a dyke, and stays.
-    longest: float = 10.0
-    tallest: float = 2.0  # metres above the planes of a rock, which stays but under trees
-    in_woods: float = 0.15  # least height under trees, on any slope
-    # Nothing is judged where a larger share of the points round about lies near the lowest ones of
-    # their cells, unless this is 1.
+    misfit: float = 0.5  # share of the misfit of a plane that is added to the least height
+    longest: float = 10.0  # metres: longer groups of such seeds are banks or dykes, and stay
+    tallest: float = 2.0  # metres: seeds as high above the planes are rocks, and stay in open land
+    in_woods: float = 0.15  # least height in metres above the planes under trees, on any slope
+    # Largest openness of land that is judged. 1 for all land.
     most_open: float = 1.0
-    steepest: float = 1.0  # where the land is steeper (rise over run), nothing is judged
+    steepest: float = 1.0  # largest slope of land that is judged, rise over run
 
     def apply(self, state: State) -> None:
         """Let the wrong seeds wait."""
@@ -81,7 +77,7 @@ class Shrubs(PointRule):
         least = np.where(in_wood, self.in_woods, self.height)[doubtful]
         x, y, z = seeds.take(doubtful)
         doubtful = doubtful[z - blocks.interpolated(mean, x, y) > least]
-        # The planes are those round the middle of a quarter of a block, for all seeds in it.
+        # All seeds in a quarter of a block are compared with the planes at the middle of it.
         quarters = Cells.over(seeds, width / 2.0)
         doubtful = doubtful[in_order(quarters.index[doubtful])]
         open_ = self.height + self.per_slope * width * slope[doubtful]
@@ -113,7 +109,7 @@ class Shrubs(PointRule):
 
             above[group] = np.fmin.reduce(rises(*sides.planes(places, enough=are_right)), axis=0)
 
-        # Planes of all seeds together would take more memory than all else.
+        # Part by part, because planes at all places would take much memory.
         over_parts(judge, len(occupied), _AT_ONCE, SILENT)
         wrong[doubtful] = above > limit
         wrong[doubtful] &= in_wood[doubtful] | (above < self.tallest)
@@ -122,10 +118,10 @@ class Shrubs(PointRule):
     def _long(
         self, cells: Cells, seeds: np.ndarray, wrong: np.ndarray, in_wood: np.ndarray
     ) -> np.ndarray:
-        """Return which seeds lie in long groups of cells with wrong seeds."""
+        """Return which seeds lie in groups of cells with wrong seeds that are banks or dykes."""
         from scipy import ndimage
 
-        # Groups may have gaps, but not under trees, where plants stand close together.
+        # Groups may have gaps of a cell, but not under trees, where plants stand close together.
         near = within_square(np.maximum, cells.holding(seeds[wrong & ~in_wood]), 1)
         groups, _ = ndimage.label(near | cells.holding(seeds[wrong]), np.ones((3, 3)))
         extents = [

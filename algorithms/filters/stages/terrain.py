@@ -21,29 +21,29 @@ from .raised_regions import LowBanks, RaisedRegions, Rocks, raised_regions
 
 @dataclass(frozen=True)
 class OnSlope(Rule):
-    """An exception: a step with two more alike steps before or after it is part of a slope."""
+    """An exception: a step that is one of three similar steps in a row is part of a slope."""
 
-    # Cells without a point do not count, except one among wide cells: their filling makes a slope
-    # of any wall. Where narrow cells have no point, blocks of them are tested as well.
+    # The filling of cells without a point makes a slope of any wall, so steps to such cells do not
+    # count, except one among wide cells. Where narrow cells have no point, blocks of cells are
+    # tested as well.
 
-    # Steps are alike if the smallest is at least this share of the largest. The second is for steps
-    # that cross a cell without a point, or are between blocks of cells.
+    # Steps are similar if the smallest is at least this share of the largest. `alike_across` is for
+    # steps across a cell without a point, and for those between blocks of cells.
     alike: float = 0.4
     alike_across: float = 0.55
-    # Least side in metres of wide cells. Of four wide cells on a slope one may have no point: its
+    # Least side of wide cells in metres. One of four wide cells on a slope may have no point: its
     # filling spreads the drop at a wall over two cells, not over three.
     wide: float = 2.0
-    # Cells along the side of the blocks that are tested where narrow cells have no point.
-    block: int = 2
-    # In cells narrower than this, in metres, no step is part of a slope: in points from images
-    # three steps of half a metre can be the side of a machine.
+    block: int = 2  # side of the blocks that are tested where narrow cells have no point, in cells
+    # Least side in metres of cells in which a step can be part of a slope. In clouds from images,
+    # three steps of narrower cells can be the side of a machine.
     narrowest: float = 1.0
 
     def on_slope(
         self, grid: HeightGrid, filled: np.ndarray, cells: np.ndarray, axis: int
     ) -> np.ndarray:
-        """Return which steps, from `cells` of the flattened grid north (axis 0) or east (1),
-        are part of a slope.
+        """Return which steps, from `cells` of the flattened grid to their neighbours in the north
+        (axis 0) or east (1), are part of a slope.
         """
         known, size, first = grid.known, grid.size, grid.origin
         on, beside_gap = self._among_alike(filled, known, cells, axis, size, self.alike)
@@ -77,8 +77,8 @@ class OnSlope(Rule):
         size: float,
         least: float,
     ) -> tuple[np.ndarray, np.ndarray]:
-        """Return which steps have two more that are alike by at least a share, and which are near a
-        cell without a point.
+        """Return which steps are among three similar ones, whose smallest is at least a share of
+        the largest, and which are near a cell without a point.
         """
         offset = filled.shape[1] if axis == 0 else 1
         place, count = np.divmod(cells, filled.shape[1])[axis], filled.shape[axis]
@@ -100,26 +100,27 @@ class OnSlope(Rule):
 
 @dataclass(frozen=True)
 class GentleBorder(Rule):
-    """A region is terrain if a large share of its border is level with the ground, or less in one
-    place: a plateau with a ramp.
+    """A region is terrain if a large share of its border is level with the ground, or a small share
+    in one place, as at the ramp of a plateau.
     """
 
-    # A region of the first area (m2) needs the first share of the border that is level or drops,
-    # one of the second area the second; between them it falls with the logarithm of the area.
+    # Least share of the border, of what is level or drops, that must be level. A region of the
+    # first area, in square metres, needs the first share, one of the second area the second.
+    # Between them, the share falls with the logarithm of the area.
     areas: tuple[float, float] = (400.0, 3000.0)
     shares: tuple[float, float] = (0.3, 0.2)
-    # With a smaller share, this one at the second area, a region is terrain only if its border is
-    # level over `width` metres in one place: points on walls make some of the border of a roof
-    # level, here and there.
+    # A region with a smaller share, down to this one at the second area, is terrain only if its
+    # border is level over `width` metres in one place. The border of a roof is level in many short
+    # pieces, where there are points on walls.
     in_one_place: float = 0.05
     width: float = 4.0
     least_area: float = 100.0  # square metres: crowns and sheds are smaller
-    # If the survey ends along a larger share of the border, the first share is needed: the rest of
-    # a roof or of a closed canopy may lie beyond it.
+    # If the border of the survey is a larger share of the border of a region, it needs the first
+    # share, because the rest of a roof or of a closed canopy may lie beyond the survey.
     most_cut: float = 0.1
-    # A region of up to `small` square metres is an object, as an A-frame or a polytunnel is, if its
-    # mean height is more than `tall` metres, and more than this share of its mean width. Regions
-    # that `SteepRises` or `Rims` raise are whole rocks, so only TIN densification asks for it.
+    # A region of up to `small` square metres is an object, such as an A-frame or a polytunnel, if
+    # its mean height is more than `tall` metres and more than the share `steep` of its mean width.
+    # Only TIN densification uses it: regions that `SteepRises` or `Rims` raise are whole rocks.
     small: float = 0.0
     tall: float = 2.0
     steep: float = 0.45
@@ -127,22 +128,24 @@ class GentleBorder(Rule):
     def fits(
         self, regions: RaisedRegions, ground: np.ndarray, level: np.ndarray, sharp: np.ndarray
     ) -> np.ndarray:
-        """Return which regions are terrain, given which are ground, and the sides that are level or
-        drop, (regions,).
+        """Return which regions are terrain, given which are ground (see `RaisedRegions.widths`),
+        and how many sides of cells on the border of each are `level` and `sharp`.
         """
         area, border = regions.area, level + sharp
         cut = regions.cut > self.most_cut * (border + regions.cut)
         shares = self.shares[0], self.in_one_place
-        few = np.where(cut, shares[0], np.interp(np.log(area), np.log(self.areas), shares))
-        many = np.where(cut, shares[0], np.interp(np.log(area), np.log(self.areas), self.shares))
-        found = (level > 0) & (level >= few * border) & (area >= self.least_area)
+        in_one_place, anywhere = (
+            np.where(cut, shares[0], np.interp(np.log(area), np.log(self.areas), needed))
+            for needed in (shares, self.shares)
+        )
+        gentle = (level > 0) & (level >= in_one_place * border) & (area >= self.least_area)
         tall = (area <= self.small) & (regions.above > self.tall)
         if tall.any():
-            found &= ~(tall & (regions.above > self.steep * regions.mean_width))
-        doubtful = found & (level < many * border)
+            gentle &= ~(tall & (regions.above > self.steep * regions.mean_width))
+        doubtful = gentle & (level < anywhere * border)
         if doubtful.any():
-            found &= ~doubtful | (regions.widths(ground) >= self.width)
-        return found
+            gentle &= ~doubtful | (regions.widths(ground) >= self.width)
+        return gentle
 
 
 @dataclass(frozen=True)
@@ -155,18 +158,17 @@ class GentleRegions(GridRule):
     stage: ClassVar = Stage.TERRAIN
     writes: ClassVar = ("raised",)
 
-    # Largest step between cells, in metres beyond the terrain's own rise, that is not an edge. It
-    # is for cells of up to 1 m, and in proportion larger for larger cells.
+    # Largest step in metres between neighbouring cells of up to 1 m that is no edge, beyond the
+    # rise of the terrain. It grows in proportion to the side of larger cells.
     step: float = 0.3
-    # Metres over which the surface is smoothed for the terrain's own rise, which is no step.
+    # Standard deviation in metres by which the surface is smoothed to find the rise of the terrain.
     smoothing: float = 2.0
     area: float = 20.0  # least area of a region in square metres
-    passes: int = 4  # passes in which regions join the ground or regions that have joined it
-    # Whether cells without a point are judged as well. They are raised if their filled height is,
-    # and outside the survey they are no border.
+    passes: int = 4  # passes in which regions join the ground, or regions that joined it before
+    # Whether cells without a point are judged as well: they are raised if their filled height is,
+    # and those outside the survey are no border.
     judges_gaps: bool = True
-    # Whether borders show that a region is terrain in clouds from images as well, in which walls
-    # are slopes.
+    # Whether borders are judged in clouds from images as well, although walls are slopes there.
     in_images: bool = False
     on_slope: OnSlope | None = OnSlope()
     gentle_border: GentleBorder | None = GentleBorder()
@@ -174,7 +176,7 @@ class GentleRegions(GridRule):
     low_banks: LowBanks | None = LowBanks()
 
     def apply(self, grid: GridState, progress: Progress = SILENT) -> None:
-        """Let regions be ground that are terrain; objects only where they are landforms."""
+        """Take the regions that are terrain for ground; cells of objects only in landforms."""
         regions = self.regions(grid)
         landforms = np.zeros(len(regions.area), dtype=bool)
         for rule in (self.rocks, self.low_banks):
@@ -203,8 +205,8 @@ class GentleRegions(GridRule):
     def _steps(
         self, grid: GridState, raised: np.ndarray, smooth: np.ndarray, axis: int, step: float
     ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Return pairs of neighbours along an axis, of which at least one is raised, and 1 where
-        the other is higher by a step, -1 where it is lower, else 0.
+        """Return pairs of neighbouring cells along an axis of which at least one is raised, and the
+        sign of the step to the second: 1 up, -1 down, 0 for none.
         """
         filled, size = grid.filled, grid.cells.size
         ahead = tuple(slice(1, None) if side == axis else slice(None) for side in (0, 1))
@@ -226,7 +228,7 @@ class GentleRegions(GridRule):
         return cell, neighbour, sign
 
     def _joined(self, regions: RaisedRegions, landforms: np.ndarray) -> np.ndarray:
-        """Return which regions pass into the ground, or into others that do."""
+        """Return which regions continue gently into the ground, or into others that do."""
         joined, count = landforms.copy(), len(regions.area)
         if not self.gentle_border:
             return joined
@@ -246,7 +248,7 @@ class GentleRegions(GridRule):
         return joined
 
 
-# Where earth is moved, also low berms and stockpiles without a sharp edge are wanted.
+# For sites where earth is moved: low berms and stockpiles without a sharp edge are terrain.
 SITE = GentleRegions(in_images=True, gentle_border=GentleBorder(least_area=0.0, most_cut=1.0))
 
 

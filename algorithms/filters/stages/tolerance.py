@@ -1,4 +1,4 @@
-"""How far from the surface through the seeds points are ground."""
+"""How far above and below the surface through the seeds points are ground."""
 
 from __future__ import annotations
 
@@ -17,32 +17,34 @@ from ..state import State
 from .noise import below_middle, from_middle, middle_of_noise, noise_of_squares
 from .seeds import DENSE_SPACING
 
-# Metres over which the surface is smoothed to move vertices along its slope.
+# Vertices are moved to the middle of their cell along the slope of a surface that is smoothed by
+# this standard deviation in metres, and is nowhere steeper than this rise over run. This is done
+# some times, since the surface changes.
 _SLOPE_SMOOTHING = 1.5
-_MOVES = 2  # how often they are moved
-_STEEPEST = 1.5  # steepest slope for this, rise over run
-# Metres over which the surface is smoothed for the slope that is added to the tolerances.
+_STEEPEST = 1.5
+_MOVES = 2
+# Standard deviation in metres by which the surface is smoothed for the slope in the tolerances.
 _FACET_SMOOTHING = 0.7
-# The tolerance on slopes is proportional to the spacing of the points, between these two spacings
-# in metres.
+# Spacings of the points in metres between which the tolerance on slopes is proportional to them.
 _SPARSE = 1.0
 _DENSE = 0.25
-# Largest spacing in metres at which the noise is measured in each cell, because the lowest of many
-# points in a cell lies below the ground.
+# The paper's surface: largest slope that counts, rise over run, and relaxations across gaps.
+_PAPER_STEEPEST = 5.0
+_PAPER_RELAXATIONS = 2
+# Largest spacing in metres at which cells hold enough points to measure the noise in each of them.
 _NOISE_SPACING = 0.36
 
 
 @dataclass(frozen=True)
 class PlainSurface(PointRule):
-    """The surface goes through the lowest vertex of each cell."""
+    """Ground lies within a tolerance of the surface through the lowest vertex of each cell."""
 
     stage: ClassVar = Stage.ACCEPTED
     writes: ClassVar = ("limits",)
 
-    # Tolerances in metres in level terrain.
-    above: float
-    on_slopes: float  # metres that a slope of 45 degrees adds to both
-    below: float = 0.6
+    above: float  # tolerance in metres in level terrain
+    on_slopes: float  # metres that a slope of 45 degrees adds to both tolerances
+    below: float = 0.6  # tolerance in metres in level terrain
 
     def apply(self, state: State) -> None:
         """Set the limits of the heights of ground points."""
@@ -54,22 +56,43 @@ class PlainSurface(PointRule):
 
 
 @dataclass(frozen=True)
+class PaperSurface(PointRule):
+    """Ground lies within a tolerance of the surface through the lowest points of ground cells."""
+
+    stage: ClassVar = Stage.ACCEPTED
+    writes: ClassVar = ("limits",)
+
+    tolerance: float  # metres in level terrain
+    slope_tolerance: float  # share of the rise of the surface over one cell that is added
+
+    def apply(self, state: State) -> None:
+        """Set the limits of the heights of ground points."""
+        grid = state.grids[0]
+        heights = grid.heights.where(~grid.raised)
+        surface = inpaint(heights.values, _PAPER_RELAXATIONS, heights.origin)
+        tolerance = np.minimum(steepness(surface, heights.size), _PAPER_STEEPEST)
+        tolerance *= self.slope_tolerance * heights.size
+        tolerance += self.tolerance
+        state.limits = np.stack((surface - tolerance, surface + tolerance), axis=-1)
+
+
+@dataclass(frozen=True)
 class MeasuredNoise(Rule):
-    """The tolerance above grows with the measured noise."""
+    """The tolerance above the surface grows with the noise of the ground points."""
 
-    # Where many points lie in a cell, the lowest lies far below the ground, so the surface goes
-    # through the middle of their noise.
+    # Where cells hold many points, the lowest of them lies far below the ground. There the surface
+    # goes through the middle of the noise.
 
-    # Tolerance in metres above a surface through the middle of the noise, and the multiple of the
-    # noise that is added to it.
+    # Tolerance in metres above the middle of the noise, and multiple of the noise (a standard
+    # deviation) that is added to it.
     least: float = 0.05
     factor: float = 3.0
-    # The same multiple where few points lie in a cell, and metres that are subtracted: plants lower
-    # than the noise cannot be recognised.
+    # Where cells hold few points: the multiple, and metres that are subtracted, since plants lower
+    # than the noise cannot be told from ground.
     sparse_factor: float = 2.5
     usual: float = 0.07
-    # Lasers and images scatter less than this, in metres: more is the height of plants. Where few
-    # points lie in a cell, the errors of the surface come on top.
+    # Largest noise in metres: lasers and images scatter less, and more is the height of plants.
+    # Where cells hold few points, it includes errors of the surface.
     most: float = 0.08
     most_sparse: float = 0.12
 
@@ -80,12 +103,12 @@ class MeasuredNoise(Rule):
         slopes: tuple[np.ndarray, np.ndarray],
         above: float,
     ) -> tuple[np.ndarray, float]:
-        """Return the rise of the surface to the middle of the noise, and the usual tolerance above
+        """Return how many metres the surface is to be raised in each cell, and the tolerance above
         it, given that without noise.
         """
         level = np.zeros(surface.shape)
         points, cells, spacing = state.points, state.grids[0].cells, state.spacing
-        # Lasers scatter little, and the roughness of crops and plants is no noise.
+        # Lasers scatter little: in less dense clouds, what looks like noise is crops and plants.
         if spacing <= (DENSE_SPACING if state.has_multi_returns else _NOISE_SPACING):
             middle, noise = middle_of_noise(points, cells, surface, slopes)
             if noise > self.most:
@@ -95,26 +118,28 @@ class MeasuredNoise(Rule):
             above = of_noise if spacing <= DENSE_SPACING else max(above, of_noise)
         elif _NOISE_SPACING < spacing <= _SPARSE:
             noise = noise_of_squares(points, cells, surface, slopes)
-            # The surface goes through the lowest of the points of a cell: this many, about.
-            number = np.asarray(max(cells.size / spacing, 1.0) ** 2)
-            least = (self.sparse_factor + float(below_middle(number))) * noise - self.usual
+            # The surface goes through the lowest point of each cell, which holds about so many.
+            count = np.asarray(max(cells.size / spacing, 1.0) ** 2)
+            least = (self.sparse_factor + float(below_middle(count))) * noise - self.usual
             above = max(above, least) if noise <= self.most_sparse else above
         return level, above
 
 
 @dataclass(frozen=True)
 class WallFoot(Rule):
-    """In clouds from images, the ground rises at the foot of walls and trees: edges are rounded."""
+    """In clouds from images, the tolerance is larger at the foot of walls and trees."""
 
-    more: float = 0.3  # metres that this adds to the tolerance above
-    # A cell is tall if more than this share of its points are more than `tall` metres above the
-    # ground. Its foot are the cells within one cell of it, but for those with ground in all cells
-    # round them.
+    # Images round off edges, so that the ground seems to rise there.
+
+    more: float = 0.3  # metres that are added to the tolerance above the surface
+    # A cell is tall if more than this share of its points lie more than `tall` metres above the
+    # highest ground. The foot are the cells beside tall ones, except those that are surrounded by
+    # cells with seeds.
     tall: float = 2.0
     share: float = 0.05
 
     def where(self, state: State, highest: np.ndarray) -> np.ndarray:
-        """Return the cells that are a foot; `highest` are the heights up to which points count."""
+        """Return the cells that are a foot, given the highest height of ground in each cell."""
         points, cells = state.points, state.grids[0].cells
         is_tall = points.z > highest.ravel().take(cells.index) + self.tall
         tall = cells.counts_of(is_tall) > self.share * cells.counts
@@ -124,32 +149,36 @@ class WallFoot(Rule):
 
 @dataclass(frozen=True)
 class ToleranceSurface(PointRule):
-    """Points close to the surface through the seeds are ground."""
+    """Ground lies within a tolerance of the surface through the seeds, moved to the middle of
+    their cells.
+    """
 
-    # Each vertex is moved to the middle of its cell along the slope, because the lowest point of a
-    # cell lies on its lower side. Where points are dense, the surface between them is known better,
-    # so the tolerance on slopes is smaller in proportion.
+    # The lowest point of a cell lies on its lower side, so it is moved along the slope. Where
+    # points are dense, the surface between them is known better, so that the tolerance on slopes is
+    # smaller in proportion.
 
     stage: ClassVar = Stage.ACCEPTED
     writes: ClassVar = ("limits",)
 
-    above: float | None  # metres in level terrain; None for what follows from the points
-    # Metres that a slope of 45 degrees adds, where points are a metre apart or more.
+    above: float | None  # tolerance in metres in level terrain; None: it follows from the points
+    # Metres that a slope of 45 degrees adds to both tolerances if points are a metre apart.
     on_slopes: float
-    # Metres in level terrain; more than above, because the surface is smoother than the ground.
+    # Tolerance in metres in level terrain; it is large because the surface is smoother than the
+    # ground.
     below: float = 0.6
-    # Usual metres above, and what is added to them where points are farther apart than the first of
-    # two distances in metres, in full from the second one on: the surface is known less well.
+    # The tolerance above, in metres, if it follows from the points. Where their spacing exceeds the
+    # first of two values in metres, the surface is known less well: up to `where_sparse` metres are
+    # added, all of them from the second value on.
     usual: float = 0.18
     where_sparse: float = 0.12
     sparse: tuple[float, float] = (0.5, 1.0)
     measured_noise: MeasuredNoise | None = MeasuredNoise()
-    # At breaks the surface is too smooth: metres of curvature over a cell above which there is one,
-    # and what each metre above adds to the tolerances.
+    # At breaks, where the curvature over a cell exceeds this, in metres, the surface is too smooth:
+    # each metre of curvature beyond adds so many metres to both tolerances.
     curvature: float = 0.25
     at_breaks: float = 1.5
-    # Under trees low plants stand among the points of the ground: there the surface goes through
-    # the lowest vertices, and above it is no noise and this share of the tolerance on slopes.
+    # Under trees low plants stand among the ground points. There the surface goes through the
+    # lowest vertices, is not raised by noise, and has this share of the tolerance on slopes above.
     under_trees: float = 0.3
     wall_foot: WallFoot | None = WallFoot()
 
@@ -184,12 +213,12 @@ def _smooth(surface: np.ndarray, metres: float, cells: Cells) -> np.ndarray:
 
 
 def _smooth_steepness(surface: np.ndarray, cells: Cells) -> np.ndarray:
-    """Return the slope of the smoothed surface; between single points the slope is too uneven."""
+    """Return the slope of the surface, smoothed since it is too uneven between single points."""
     return steepness(_smooth(surface, _FACET_SMOOTHING, cells), cells.size)
 
 
 def _curvature(surface: np.ndarray) -> np.ndarray:
-    """Return how many metres each cell lies off the lines between opposite neighbours."""
+    """Return how many metres each cell lies from the lines between opposite neighbours."""
     around = np.pad(surface, 1, mode="edge")
     north = around[2:, 1:-1] + around[:-2, 1:-1]
     east = around[1:-1, 2:] + around[1:-1, :-2]
@@ -199,17 +228,17 @@ def _curvature(surface: np.ndarray) -> np.ndarray:
 def _centred(
     points: Points, vertices: np.ndarray, cells: Cells, woods: np.ndarray
 ) -> tuple[np.ndarray, tuple[np.ndarray, np.ndarray]]:
-    """Return the mean of the vertices of each cell, or the lowest under trees, at its middle, and
-    the slopes of that surface.
+    """Return the mean height of the vertices of each cell, or the lowest under trees, moved to the
+    middle of the cell, and the slopes of this surface.
     """
     cell, z = cells.index[vertices], points.z[vertices]
     north, east = from_middle(points.take(vertices), cells, cell)
     count = np.bincount(cell, minlength=cells.rows * cells.columns)
-    moved, low = z, np.flatnonzero(woods.ravel()[cell])
+    moved, under_trees = z, np.flatnonzero(woods.ravel()[cell])
     for _ in range(_MOVES + 1):
         total = np.bincount(cell, moved, minlength=count.size)
         heights = np.where(count > 0, total / np.maximum(count, 1), np.nan)
-        lower_at(heights, cell[low], moved[low])
+        lower_at(heights, cell[under_trees], moved[under_trees])
         surface = inpaint(heights.reshape(cells.shape), first=cells.first)
         slopes = _slopes(surface, cells)
         moved = z - slopes[0].ravel()[cell] * north - slopes[1].ravel()[cell] * east
@@ -217,7 +246,7 @@ def _centred(
 
 
 def _slopes(surface: np.ndarray, cells: Cells) -> tuple[np.ndarray, np.ndarray]:
-    """Return the slope towards north and east, nowhere steeper than is usual for terrain."""
+    """Return the slopes towards north and east, cut to the steepest that is used."""
     north, east = gradient(_smooth(surface, _SLOPE_SMOOTHING, cells), cells.size)
     share = _STEEPEST / np.maximum(length(north, east), _STEEPEST)
     return north * share, east * share
