@@ -14,44 +14,37 @@ from ..core.points import Points
 from ..core.progress import SILENT
 from ..core.threads import in_threads, over_parts, parts_of
 
-# Most cells of a grid: a larger one would not fit into memory.
-_MOST_CELLS = 200_000_000
+_MOST_CELLS = 200_000_000  # most cells of a grid: a larger one would not fit into memory
 _POINTS_A_PART = 1 << 17
 _POINTS_A_COUNT = 1 << 20
-_VALUES_A_PART = 1 << 16  # values of which the least are found at a time
-# How often values are stored before `minimum.at`, which takes eight times as long, finds the rest.
+_VALUES_A_PART = 1 << 16  # values whose minima are found at a time
+# Rounds of `lower_at` before `numpy.minimum.at`, which takes eight times as long, finds the rest.
 _ROUNDS = 6
-# Cells for each element from which on the occupied cells are sorted.
-_FEW = 16
-# Side in metres of the blocks in which points are counted. A block without a point is a gap in the
-# survey.
+_FEW = 16  # cells for each element from which on only the occupied cells are numbered
+# Spacing: side in metres of the blocks in which points are counted. A block without points is a gap
+# in the survey.
 _BLOCK = 10.0
-# With this many times the points that a dense survey has in the bounding box, most blocks are
-# dense, and the points need not be counted.
+# If the bounding box of points would hold them so many times at the least spacing, this is returned
+# without counting.
 _SURELY = 4.0
-# Step in metres to which the usual distance between points is rounded by default.
-_SPACING_STEP = 0.5
-# To divide points into groups: cells along the reach (even, because points are dilated by half of
-# them).
-_CELLS_A_REACH = 10
-_LEAST_GAP = 5.0  # metres: least side of such a cell
+_SPACING_STEP = 0.5  # step in metres to which the spacing is rounded by default
 
 
 @dataclass(frozen=True)
 class Cells:
-    """A grid of square cells, as a rule anchored at (0, 0) of the points' frame."""
+    """A grid of square cells over points, usually with a corner at (0, 0) of the points' frame."""
 
     size: float  # side of a cell in metres
-    first_row: int  # of the frame, from south
-    first_column: int  # of the frame, from west
+    first_row: int  # row of the first cell, counted from the south, where 0 begins at y = 0
+    first_column: int  # its column, counted from the west, where 0 begins at x = 0
     rows: int
     columns: int
-    index: np.ndarray  # int32 (n,), the cell of each point in the flattened grid
+    index: np.ndarray  # int32 (n,): The cell of each point in the flattened grid
 
     @classmethod
     def over(cls, points: Points, size: float, shift: float = 0.0) -> Cells:
-        """Return the cells of `size` metres that cover points, at least one, with borders `shift`
-        metres farther west and south; refuse more cells than fit into memory.
+        """Return the cells of `size` metres over points (at least one), moved by `shift` metres to
+        the west and south; refuse more cells than fit into memory.
         """
         first_column, first_row, last_column, last_row = (
             math.floor((extreme + shift) / size) for extreme in points.box
@@ -75,8 +68,8 @@ class Cells:
         return cls(size, first_row, first_column, rows, columns, index)
 
     def wider(self, points: Points, size: float) -> Cells:
-        """Return cells of another size over the same points; from cells without a shift, whose side
-        is a part of that size, it takes a fifth of the time of `over`.
+        """Return cells of a larger size over the same points, from cells without a shift: five
+        times as fast as `over` if the size is a multiple of theirs.
         """
         side = round(size / self.size)
         if side * self.size != size:
@@ -102,7 +95,7 @@ class Cells:
 
     @property
     def first(self) -> tuple[int, int]:
-        """The row and the column at which the grid begins."""
+        """Row and column of the first cell."""
         return self.first_row, self.first_column
 
     @property
@@ -111,8 +104,8 @@ class Cells:
         return self.rows, self.columns
 
     def minimum(self, z: np.ndarray, selected: np.ndarray | slice = slice(None)) -> np.ndarray:
-        """Return the lowest `z` (n,) of the points of a mask or indices, by default all, in each
-        cell (rows, columns); NaN in empty cells.
+        """Return the lowest `z` (n,) of all or selected points in each cell, (rows, columns); NaN
+        in cells without any.
         """
         lowest = np.full(self.rows * self.columns, np.inf)
         lower_at(lowest, self.index[selected], z[selected])
@@ -121,8 +114,8 @@ class Cells:
 
     def lowest_points(self, points: Points) -> np.ndarray:
         """Return the index of the lowest point of each occupied cell, in the order of the cells."""
-        # If several points of a cell are equally low, the one with the smallest x, then y, is
-        # taken: the choice must not depend on the order of the points.
+        # Of equally low points of a cell, the one with the smallest x, then y, is taken, so that
+        # the choice does not depend on the order of the points.
         keys = points.z, points.x, points.y
         found = first_of_each(self.index, self.rows * self.columns, *keys)
         return found[np.isfinite(points.z.take(found))]
@@ -136,7 +129,7 @@ class Cells:
         """Return the number of selected points, a mask (n,) or None for all, in each cell."""
         counts = np.zeros(self.rows * self.columns, dtype=np.int32)
         for part in parts_of(len(self.index), _POINTS_A_COUNT):
-            # Part by part, because bincount copies the indices to 8 bytes each.
+            # Part by part, because bincount copies the indices as integers of 8 bytes.
             index = self.index[part]
             if selected is not None:
                 index = index.take(np.flatnonzero(selected[part]))
@@ -155,13 +148,13 @@ class Cells:
         return np.concatenate(in_threads(found, parts) or [np.empty(0, dtype=np.intp)])
 
     def spacing(self, counts: np.ndarray, dense: float = 1.0, step: float = _SPACING_STEP) -> float:
-        """Return the usual distance between points in metres, from the count of each cell, as the
-        function `spacing` with blocks of whole cells.
+        """Return the spacing of points in metres, as the function `spacing`, from their number in
+        each cell.
         """
         return _rounded(self._apart(counts), dense, step)
 
     def _apart(self, counts: np.ndarray) -> float:
-        """Return the usual distance between points in metres, from the count of each cell."""
+        """Return the spacing of points in metres before it is rounded."""
         side = max(1, round(_BLOCK / self.size))
         for axis, (first, count) in enumerate(zip(self.first, self.shape)):
             starts = np.unique((first + np.arange(count)) // side, return_index=True)[1]
@@ -180,8 +173,8 @@ class Cells:
         return holding.reshape(self.shape)
 
     def interpolated(self, grid: np.ndarray, x: np.ndarray, y: np.ndarray) -> np.ndarray:
-        """Interpolate a grid (rows, columns) bilinearly between cell centres at places in metres;
-        beyond the outermost centres the value of the border is taken.
+        """Interpolate a grid (rows, columns) bilinearly between the centres of cells to places in
+        metres; beyond the outermost centres, values are those of the border.
         """
         from scipy import ndimage
 
@@ -190,43 +183,22 @@ class Cells:
         return ndimage.map_coordinates(grid, (row, column), order=1, mode="nearest")
 
     def resampled(self, grid: np.ndarray, cells: Cells) -> np.ndarray:
-        """Return a grid on the cells of `other`, with the value of the cell that holds the centre,
-        or beyond this grid the value of the border.
+        """Return a grid on other cells: at each the value of the cell that holds its centre, or of
+        the border beyond this grid.
         """
-        row = np.floor((cells.first_row + np.arange(cells.rows) + 0.5) * cells.size / self.size)
-        column = np.floor(
-            (cells.first_column + np.arange(cells.columns) + 0.5) * cells.size / self.size
-        )
-        row = np.clip(row.astype(int) - self.first_row, 0, self.rows - 1)
-        column = np.clip(column.astype(int) - self.first_column, 0, self.columns - 1)
-        return grid[np.ix_(row, column)]
-
-
-def apart(points: Points, reach: float) -> tuple[np.ndarray, int]:
-    """Return the group of each point, int32 (n,), empty if there is only one, and the number of
-    groups that are farther apart than `reach` metres.
-    """
-    # Gaps that are a quarter wider, and at least 65 m wide, always separate groups.
-    from scipy import ndimage
-
-    cells = Cells.over(points, max(reach / _CELLS_A_REACH, _LEAST_GAP))
-    square = np.ones((3, 3), dtype=bool)
-    around = np.pad(cells.occupied, _CELLS_A_REACH)
-    groups, count = ndimage.label(
-        ndimage.binary_dilation(around, square, iterations=_CELLS_A_REACH // 2)
-    )
-    if count == 1:
-        return np.zeros(0, dtype=np.int32), 1
-    inner = groups[_CELLS_A_REACH:-_CELLS_A_REACH, _CELLS_A_REACH:-_CELLS_A_REACH]
-    return inner.ravel()[cells.index] - np.int32(1), count
+        places = []
+        for start, count, first, end in zip(cells.first, cells.shape, self.first, self.shape):
+            centres = (start + np.arange(count) + 0.5) * cells.size / self.size
+            places.append(np.clip(np.floor(centres).astype(int) - first, 0, end - 1))
+        return grid[np.ix_(*places)]
 
 
 def first_of_each(index: np.ndarray, size: int, *keys: np.ndarray) -> np.ndarray:
-    """Return the index of the first element of each occupied cell, intp (m,), in the order of the
-    cells (0 to `size` - 1).
+    """Return the index of the first element of each occupied cell by some keys, intp (m,), in the
+    order of the cells, of which there are `size`.
     """
-    # The first element of a cell has the least first key; the next key decides between equal ones.
-    if _FEW * len(index) < size:  # what is done follows the elements, not the cells
+    # The first element of a cell has the least first key. Between equal ones, the next key decides.
+    if _FEW * len(index) < size:  # so that the time depends on the elements, not on the cells
         occupied, index = np.unique(index, return_inverse=True)
         size = len(occupied)
     found, least = np.full(size, -1, dtype=np.intp), np.full(size, np.inf)
@@ -245,7 +217,7 @@ def first_of_each(index: np.ndarray, size: int, *keys: np.ndarray) -> np.ndarray
         equal = cell[found.take(cell) != candidates]
         if not len(equal):
             break
-        # Only few cells have several: the keys of others need not be compared.
+        # The next key is compared only in the few cells with several such elements.
         several = np.zeros(size, dtype=bool)
         several[equal], least[equal] = True, np.inf
         undecided = np.flatnonzero(several.take(cell))
@@ -254,8 +226,8 @@ def first_of_each(index: np.ndarray, size: int, *keys: np.ndarray) -> np.ndarray
 
 
 def in_order(index: np.ndarray) -> np.ndarray:
-    """Return the order of whole numbers from 0 to 2**31, int64 (n,), in a fifth of the time of
-    `argsort`; equal ones stay as they are.
+    """Return the stable order of whole numbers from 0 to 2**31, int64 (n,), five times as fast as
+    `argsort`.
     """
     keys = index.astype(np.int64) << 32
     keys |= np.arange(len(index))
@@ -267,7 +239,9 @@ def in_order(index: np.ndarray) -> np.ndarray:
 def cells_at(
     x: np.ndarray, y: np.ndarray, size: float, corner: Sequence[float] = (0.0, 0.0)
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Return row and column, int64 (n,), of the square cells that hold places, from a corner."""
+    """Return row and column, int64 (n,), of the square cells that hold places, counted from a
+    corner.
+    """
     row, column = (
         np.floor((places - start) / size).astype(np.int64)
         for places, start in ((y, corner[1]), (x, corner[0]))
@@ -281,16 +255,16 @@ def are_inside(row: np.ndarray, column: np.ndarray, shape: tuple[int, ...]) -> n
 
 
 def numbered(counts: np.ndarray) -> np.ndarray:
-    """Return 0, 1, ... to each count (which is not included), one run after the other: 0, 1, 0, 1,
-    2 for [2, 0, 3].
+    """Return runs of 0, 1, ... of the given lengths, one after the other: 0, 1, 0, 1, 2 for
+    [2, 0, 3].
     """
     starts = np.cumsum(counts) - counts
     return np.arange(int(counts.sum())) - np.repeat(starts, counts)
 
 
 def lower_at(target: np.ndarray, index: np.ndarray, values: np.ndarray) -> np.ndarray:
-    """Lower each element of an array in place to the least of the values (n,) whose index (n,) it
-    is, as `numpy.minimum.at`; return where in `values` the least are, and some others.
+    """Lower elements of an array to values (n,), given the index of each value, as
+    `numpy.minimum.at`; return where in `values` the least of each element are, and some others.
     """
     found = [np.empty(0, dtype=np.intp)]
     for part in parts_of(len(index), _VALUES_A_PART):
@@ -310,12 +284,12 @@ def lower_at(target: np.ndarray, index: np.ndarray, values: np.ndarray) -> np.nd
 
 
 def spacing(points: Points, dense: float = 1.0, step: float = _SPACING_STEP) -> float:
-    """Return the usual distance between points in metres, at least `dense`, and rounded to `step`
-    from a metre on.
+    """Return the spacing of points, their usual distance in metres: at least `dense`, and rounded,
+    from a metre on to `step`.
     """
     # It follows from the median number of points in blocks of 10 m within the survey. So gaps, the
-    # extent and a few points do not change it. It is rounded, below a metre to densities that
-    # differ by a factor of two, so that it is hardly ever different in a crop.
+    # extent and single points do not change it. Below a metre, it is rounded to densities that
+    # differ by a factor of two. So a part of a survey nearly always has the same spacing.
     area = math.prod(points.sides)
     if _SURELY * area <= dense**2 * points.count:
         return dense
@@ -325,20 +299,20 @@ def spacing(points: Points, dense: float = 1.0, step: float = _SPACING_STEP) -> 
 
 
 def keep_spacing(points: Points, sample: Points) -> None:
-    """Let `spacing` return for points what it returns for some of them."""
+    """Let `spacing` return for points the spacing of a sample of them."""
     blocks = Cells.over(sample, _BLOCK)
     points.found["apart"] = blocks._apart(blocks.counts)
 
 
 def _rounded(apart: float, dense: float, step: float) -> float:
-    """Return a distance between points in coarse steps; see `spacing`."""
+    """Return a spacing as a coarse step; see `spacing`."""
     if apart >= 1.0:
         return max(dense, step * round(apart / step))
     return max(dense, 2.0 ** (round(2.0 * math.log2(apart)) / 2.0))
 
 
 def usual_count(counts: np.ndarray) -> float:
-    """Return the median number of points of the blocks within the survey, from a grid of counts."""
+    """Return the median number of points in blocks within the survey, given a grid of counts."""
     from scipy import ndimage
 
     within = ndimage.binary_erosion(counts > 0, np.ones((3, 3)))

@@ -1,7 +1,7 @@
-"""The expected error of a terrain model: the metres that 95 of 100 errors do not exceed.
+"""The expected error of a terrain model: 95 of 100 errors are not larger.
 
-It follows from labelled points alone, labelled by any method: seven pieces of evidence are found
-for each cell, and each makes the error larger by a factor from a table. ``python -m
+It follows from points with a mask of ground, by any method: seven pieces of evidence are found for
+each cell, and each makes the error larger by a factor from a table. ``python -m
 benchmarks.expected_error`` fits the table and measures how often the errors of real terrain models
 lie within what is expected; docs/check.md has the figures.
 """
@@ -19,126 +19,70 @@ from .inpaint import inpaint
 from .morphology import within_square
 from .parts import parts_with
 
-# Side of the cells in metres. All values below were fitted with it.
-CELL = 1.0
-_NEAR = 2  # cells to each side that are near a cell
-_AROUND = 8  # cells to each side that are round it
-# Weight of the cells round a cell, where the weight of those near it is 1.
+CELL = 1.0  # side of the cells in metres, for which all values below were fitted
+# Cells to each side of a cell that are near it, and that are round it.
+_NEAR = 2
+_AROUND = 8
+# Weight of the cells round a cell in its roughness, in relation to that of the cells near it.
 _AROUND_SHARE = 0.05
-# Height in metres above the ground up to which a rejected point may be ground.
+# Largest height in metres above the ground of points that are not ground but may be.
 _DOUBTFUL_HEIGHT = 1.0
-# Heights in metres above the ground between which rejected points are of low plants, in which the
-# ground may be too high.
+# Heights in metres above the ground between which points that are not ground are low plants: the
+# ground may be too high there.
 _LOW_PLANTS = (0.1, 0.3)
 _RELAXATIONS = 2
-_ROUGHEST = 2.0  # largest roughness that counts, m
-_STEEPEST = 8.0  # steepest step that counts, rise over run
+_ROUGHEST = 2.0  # largest roughness that counts in metres
+_STEEPEST = 8.0  # steepest rise over run that counts
 _TINY = 1e-6
 
-LEAST = 0.0792  # the expected error where no evidence makes it larger, m
+LEAST = 0.0792  # the expected error in metres where no evidence makes it larger
 
 
 class Evidence(NamedTuple):
     """The evidence for the error of each cell; grids of float32, shape (rows, columns)."""
 
-    holes: np.ndarray  # share of the cells with points within 2 m that have no ground
-    # mean distance, metres, of ground near the cell from means of 3 x 3 cells
-    roughness: np.ndarray
+    holes: np.ndarray  # share of cells without ground among those with points within 2 m
+    roughness: np.ndarray  # mean distance in metres of ground near it from means of 3 x 3 cells
     slope: np.ndarray  # rise over run of the ground, at most 8
     gap: np.ndarray  # distance to the nearest ground cell in metres
-    # log(1 + gap) times the steepest rise over run of the ground within 8 m
-    gap_at_step: np.ndarray
-    # share of the cells with points within 8 m whose lowest point is not ground, although it lies
-    # below the ground or at most 1 m above it
+    gap_at_step: np.ndarray  # log(1 + gap) times the steepest slope of the ground within 8 m
+    # Share of cells, among those with points within 8 m, that have no ground, although their lowest
+    # point lies at most 1 m above the ground.
     doubtful: np.ndarray
-    # share of the points within 8 m that are not ground, and lie 0.1 to 0.3 m above it
-    low_plants: np.ndarray
+    low_plants: np.ndarray  # share of the points within 8 m that are low plants
 
 
 # Values of each piece of evidence, and the factors by which they make the error larger. Between two
 # values the logarithm of the factor is linear.
 Table = Mapping[str, "tuple[tuple[float, float], ...]"]
 FACTORS: Table = {
-    "holes": (
-        (0.0, 1.0),
-        (0.25, 1.18),
-        (0.5, 1.42),
-        (0.75, 1.7),
-        (1.0, 2.03),
-    ),
-    "roughness": (
-        (0.01, 1.0),
-        (0.02, 1.18),
-        (0.04, 1.54),
-        (0.08, 1.99),
-        (0.16, 2.58),
-        (0.32, 3.37),
-        (0.64, 4.26),
-    ),
-    "slope": (
-        (0.0, 1.0),
-        (0.1, 1.23),
-        (0.3, 1.46),
-        (0.7, 1.74),
-        (1.5, 2.11),
-    ),
-    "gap": (
-        (0.0, 1.0),
-        (1.0, 1.07),
-        (2.0, 1.26),
-        (4.0, 1.5),
-        (8.0, 1.77),
-        (16.0, 2.07),
-        (32.0, 2.4),
-    ),
-    "gap_at_step": (
-        (0.0, 1.0),
-        (0.25, 1.14),
-        (0.5, 1.37),
-        (1.0, 1.67),
-        (2.0, 2.05),
-        (4.0, 2.45),
-        (8.0, 2.86),
-    ),
-    "doubtful": (
-        (0.0, 1.0),
-        (0.02, 1.17),
-        (0.05, 1.35),
-        (0.1, 1.53),
-        (0.2, 1.69),
-    ),
-    "low_plants": (
-        (0.0, 1.0),
-        (0.02, 1.2),
-        (0.05, 1.36),
-        (0.1, 1.58),
-        (0.2, 1.9),
-    ),
-}
-# The usual factor of each piece of evidence on these tiles: what is larger is a cause.
+    "holes": ((0.0, 1.0), (0.25, 1.18), (0.5, 1.42), (0.75, 1.7), (1.0, 2.03)),
+    "roughness": ((0.01, 1.0), (0.02, 1.18), (0.04, 1.54), (0.08, 1.99), (0.16, 2.58),
+        (0.32, 3.37), (0.64, 4.26)),
+    "slope": ((0.0, 1.0), (0.1, 1.23), (0.3, 1.46), (0.7, 1.74), (1.5, 2.11)),
+    "gap": ((0.0, 1.0), (1.0, 1.07), (2.0, 1.26), (4.0, 1.5), (8.0, 1.77), (16.0, 2.07),
+        (32.0, 2.4)),
+    "gap_at_step": ((0.0, 1.0), (0.25, 1.14), (0.5, 1.37), (1.0, 1.67), (2.0, 2.05), (4.0, 2.45),
+        (8.0, 2.86)),
+    "doubtful": ((0.0, 1.0), (0.02, 1.17), (0.05, 1.35), (0.1, 1.53), (0.2, 1.69)),
+    "low_plants": ((0.0, 1.0), (0.02, 1.2), (0.05, 1.36), (0.1, 1.58), (0.2, 1.9)),
+}  # fmt: skip
+# The usual factor of each piece of evidence in the benchmark: a larger one is a cause of the error.
 _USUAL = (1.25, 1.74, 1.22, 1.1, 1.14, 1.16, 1.11)
-# As the benchmark found them: the exponent of the Weibull distribution of the errors of a cell, and
-# the RMSE of a tile in relation to the root mean square of what is expected.
+# By the benchmark: the exponent of the Weibull distribution of the errors of a cell, and the ratio
+# of the RMSE of a tile to the root mean square of its expected errors.
 SHAPE = 0.4
 RMSE_SHARE = 0.35
-# Number of looks at the ground, if there are several.
+# The number of looks at the ground, by different methods and parameters, if there are several.
 LOOKS = 5
-# The factors by which the expected error of one look changes with the spread (standard deviation)
-# of the terrains of several, in metres.
+# Standard deviations in metres of the terrains of several looks, and the factors by which the
+# expected error of one look is multiplied then.
 SPREAD_FACTORS = (
-    (0.0, 0.846),
-    (0.01, 0.983),
-    (0.02, 1.13),
-    (0.05, 1.3),
-    (0.1, 1.5),
-    (0.2, 1.77),
-    (0.5, 2.11),
-    (1.0, 2.5),
-    (2.0, 2.96),
-)
-LARGE = 0.3  # an expected error that is told, m
-# Share of the errors that are larger than the expected one.
-BEYOND = 0.05
+    (0.0, 0.846), (0.01, 0.983), (0.02, 1.13), (0.05, 1.3),
+    (0.1, 1.5), (0.2, 1.77), (0.5, 2.11), (1.0, 2.5), (2.0, 2.96),
+)  # fmt: skip
+LARGE = 0.3  # metres from which on an expected error is reported as large
+BEYOND = 0.05  # share of the errors that are larger than the expected one
 
 
 class ExpectedError(NamedTuple):
@@ -158,7 +102,7 @@ def expected_error(points: Points, ground: np.ndarray) -> ExpectedError:
 
 
 def error_of(pieces: Evidence, factors: Table = FACTORS, least: float = LEAST) -> np.ndarray:
-    """Return the expected error in metres of pieces of evidence as float32, in their shape."""
+    """Return the expected error of each cell in metres, float32, given its evidence."""
     logarithm = np.full(pieces.holes.shape, np.log(least), dtype=np.float32)
     for one in _logarithms(pieces, factors):
         logarithm += one
@@ -166,8 +110,8 @@ def error_of(pieces: Evidence, factors: Table = FACTORS, least: float = LEAST) -
 
 
 def causes_of(pieces: Evidence) -> np.ndarray:
-    """Return which piece of evidence makes the error of each cell largest, compared with its usual
-    factor, as uint8: 1 for the first one of `Evidence`, 0 where none is larger than usual.
+    """Return the piece of evidence whose factor exceeds its usual one most in each cell, uint8: its
+    number in `Evidence` from 1; 0 where no factor is larger than usual.
     """
     causes = np.zeros(pieces.holes.shape, dtype=np.uint8)
     most = np.zeros(pieces.holes.shape, dtype=np.float32)
@@ -192,8 +136,8 @@ def factor_of_looks(
     rows: np.ndarray,
     columns: np.ndarray,
 ) -> np.ndarray:
-    """Return the factors, float32, by which the expected error of one look changes with several:
-    their ground, of which the heights are given; for rows and columns as in `evidence`.
+    """Return the factors, float32, by which the grounds of several looks change the expected error
+    of one look, for rows and columns as in `evidence`.
     """
     start, factor = np.array(SPREAD_FACTORS).T
     spread = spread_of(cells, z, grounds, rows, columns)
@@ -207,8 +151,8 @@ def spread_of(
     rows: np.ndarray,
     columns: np.ndarray,
 ) -> np.ndarray:
-    """Return the standard deviation in metres of the heights of several grounds, float32, for rows
-    and columns as in `evidence`; infinite where one has no ground in all of the block.
+    """Return the standard deviation in metres of the terrains of several grounds, float32, for rows
+    and columns as in `evidence`; infinite if one of them has no point.
     """
     total, squares = np.zeros((2, len(rows), len(columns)), dtype=np.float64)
     first = None
@@ -227,20 +171,20 @@ def spread_of(
 
 
 def share_over(limit: float, error: np.ndarray) -> np.ndarray:
-    """Return the probability that a cell is more than a limit off, both in metres."""
+    """Return the probability that the error of a cell exceeds a limit, given its expected error."""
     return BEYOND ** ((limit / error) ** SHAPE)
 
 
 class ExpectedAccuracy:
-    """What is expected of a terrain model, by the expected error of its cells, part by part."""
+    """The expected accuracy of a terrain model, from the expected errors of its cells, by parts."""
 
     def __init__(self) -> None:
-        self.count = 0  # of cells with an expected error
-        self.large = 0  # of those with more than `LARGE`
+        self.count = 0  # number of cells with an expected error
+        self.large = 0  # number of cells whose expected error is large
         self._squares = 0.0
 
     def add(self, error: np.ndarray) -> None:
-        """Add cells by their expected error in metres, of which those that are NaN are left out."""
+        """Add the expected errors of cells in metres, without those that are NaN."""
         known = error[np.isfinite(error)].astype(np.float64)
         self.count += len(known)
         self.large += int(np.count_nonzero(known > LARGE))
@@ -253,7 +197,7 @@ class ExpectedAccuracy:
 
     @property
     def text(self) -> str:
-        """What is expected, in words."""
+        """The expected accuracy in words."""
         return (
             f"The expected RMSE of the terrain model is {self.rmse:.2f} m, by its points alone and"
             f" not measured. {self.large / max(self.count, 1):.1%} of its cells have an expected"
@@ -262,8 +206,8 @@ class ExpectedAccuracy:
 
 
 def expected_rmse(error: np.ndarray) -> float:
-    """Return the RMSE of a terrain model in metres by the expected error of its cells, of which
-    those that are NaN are left out; NaN if all are.
+    """Return the expected RMSE of a terrain model in metres, from the expected errors of its cells
+    that are not NaN; NaN if all are.
     """
     expected = ExpectedAccuracy()
     expected.add(error)
@@ -273,13 +217,13 @@ def expected_rmse(error: np.ndarray) -> float:
 def evidence(
     cells: Cells, z: np.ndarray, ground: np.ndarray, rows: np.ndarray, columns: np.ndarray
 ) -> Evidence:
-    """Return the evidence for the error of some rows and columns of cells of 1 m, both in ascending
-    order, from the heights in metres of all points, and which are ground.
+    """Return the evidence in some rows and columns of cells of 1 m, both ascending, given the
+    heights of all points in metres and which of them are ground.
     """
     from scipy import ndimage
 
     if not ground.any():
-        # The ground is farther away than a block sees.
+        # The nearest ground lies beyond the block.
         nothing = np.zeros((len(rows), len(columns)), dtype=np.float32)
         far = np.full_like(nothing, np.inf)
         return Evidence(far, nothing, nothing, far, nothing, nothing, nothing)
@@ -291,7 +235,7 @@ def evidence(
     gap = (_distances(has_ground, rows, columns) * cells.size).astype(np.float32)
     holes, rough, doubts, plants = np.zeros((4, len(rows), len(columns)), dtype=np.float32)
     holes[:] = 1.0
-    # Far from all points there are no means.
+    # Cells far from all points have no means.
     near_points = within_square(np.maximum, occupied.view(np.uint8), _AROUND).view(bool)
     for part in parts_with(near_points, _AROUND + 1):
         (some_rows, inner_rows), (some_columns, inner_columns) = (
@@ -318,17 +262,17 @@ def evidence(
 
 
 def _low_plants(cells: Cells, z: np.ndarray, ground: np.ndarray, surface: np.ndarray) -> np.ndarray:
-    """Return the number of points in each cell that are not ground but just above it."""
+    """Return the number of points on low plants in each cell."""
     low, high = _LOW_PLANTS
     above = z - surface.ravel().take(cells.index)
     return cells.counts_of(~ground & (above > low) & (above <= high))
 
 
 def _distances(targets: np.ndarray, rows: np.ndarray, columns: np.ndarray) -> np.ndarray:
-    """Return the distances in cells of some rows and columns to the nearest of some cells."""
+    """Return the distances in cells from cells of some rows and columns to the nearest target."""
     from scipy import ndimage
 
-    # Of distances, scipy makes several planes of all cells.
+    # The distances are computed here, because scipy needs several arrays of all cells for them.
     nearest = ndimage.distance_transform_edt(~targets, return_distances=False, return_indices=True)
     row, column = nearest.take(rows, axis=1).take(columns, axis=2)
     north = np.subtract(row, rows[:, None], dtype=np.float64)
@@ -337,13 +281,15 @@ def _distances(targets: np.ndarray, rows: np.ndarray, columns: np.ndarray) -> np
 
 
 def _places_in(places: np.ndarray, core: slice, inner: slice) -> tuple[slice, np.ndarray]:
-    """Return which of ascending places lie in a part of the grid, and where in its margin."""
+    """Return which of ascending places lie in a part of the grid, and where within its margin."""
     inside = slice(*np.searchsorted(places, (core.start, core.stop)).tolist())
     return inside, places[inside] - core.start + inner.start
 
 
 def _roughness(surface: np.ndarray, has_ground: np.ndarray) -> np.ndarray:
-    """Return how far the ground near each cell, or else round it, is from a smoothed surface."""
+    """Return the mean distance of the ground near each cell, and a little round it, from a smoothed
+    surface.
+    """
     from scipy import ndimage
 
     apart = np.abs(surface - ndimage.uniform_filter(surface, 3, mode="nearest"))

@@ -1,4 +1,4 @@
-"""The parts of a grid that hold wanted cells, so that work follows these and not the whole box."""
+"""The parts of a grid that hold wanted cells, and groups of points that are far apart."""
 
 from __future__ import annotations
 
@@ -6,14 +6,17 @@ from typing import Iterator, NamedTuple
 
 import numpy as np
 
-# Side in cells of the squares of which parts are made.
-_SQUARE = 16
-# Cells that cost as much as a part does beside its own cells.
-_COST_OF_A_PART = 4096
-# A part is divided where that saves at least this share of what it costs.
-_LEAST_SAVED = 0.1
-# Share of its squares that are wanted from which on a part is not divided.
-_SOLID = 0.9
+from ..core.points import Points
+from .cells import Cells
+
+_SQUARE = 16  # side in cells of the squares of which parts are made
+_COST_OF_A_PART = 4096  # what a part costs beside its cells, in cells
+_LEAST_SAVED = 0.1  # least share of the cost of a part that is saved if it is divided
+_SOLID = 0.9  # share of wanted squares from which on a part is not divided
+# Groups of points: cells along the reach (even, because points are dilated by half of them), and
+# the least side of such a cell in metres.
+_CELLS_A_REACH = 10
+_LEAST_GAP = 5.0
 
 _Slices = tuple[slice, slice]
 
@@ -22,13 +25,13 @@ class Part(NamedTuple):
     """A rectangle of a grid: slices of rows and columns."""
 
     core: _Slices  # the cells of the part
-    around: _Slices  # the same with a margin, cut at the border of the grid
-    inner: _Slices  # the cells of the part within those with the margin
+    around: _Slices  # the cells of the part and of its margin, within the grid
+    inner: _Slices  # the cells of the part, counted from the first one of the margin
 
 
 def parts_with(wanted: np.ndarray, margin: int) -> Iterator[Part]:
-    """Yield rectangles that together hold all wanted cells (rows, columns), none of them twice,
-    each with `margin` cells round it.
+    """Yield rectangles that together hold all wanted cells (rows, columns) once, with a margin of
+    cells, so that the work depends on the wanted cells and not on their bounding box.
     """
     shape = wanted.shape
     starts = [np.arange(0, max(count, 1), _SQUARE) for count in shape]
@@ -44,7 +47,7 @@ def parts_with(wanted: np.ndarray, margin: int) -> Iterator[Part]:
 
 
 def _side(first: int, last: int, count: int, margin: int) -> tuple[slice, slice, slice]:
-    """Return the rows or columns of a part, with a margin, and the part within these."""
+    """Return the rows or columns of `Part`: of the part, with its margin, and counted from that."""
     start = max(first - margin, 0)
     around = slice(start, min(last + margin, count))
     return slice(first, last), around, slice(first - start, last - start)
@@ -76,3 +79,22 @@ def _divided(
     if sum(costs) > (1.0 - _LEAST_SAVED) * cost:
         return whole
     return sum(costs), parts[0] + parts[1]
+
+
+def apart(points: Points, reach: float) -> tuple[np.ndarray, int]:
+    """Return the group of each point, int32 (n,), empty if there is only one group, and the number
+    of groups, which are farther apart than `reach` metres.
+    """
+    # A gap always separates groups if it is a quarter wider than the reach, and at least 65 m wide.
+    from scipy import ndimage
+
+    cells = Cells.over(points, max(reach / _CELLS_A_REACH, _LEAST_GAP))
+    square = np.ones((3, 3), dtype=bool)
+    around = np.pad(cells.occupied, _CELLS_A_REACH)
+    groups, count = ndimage.label(
+        ndimage.binary_dilation(around, square, iterations=_CELLS_A_REACH // 2)
+    )
+    if count == 1:
+        return np.zeros(0, dtype=np.int32), 1
+    inner = groups[_CELLS_A_REACH:-_CELLS_A_REACH, _CELLS_A_REACH:-_CELLS_A_REACH]
+    return inner.ravel()[cells.index] - np.int32(1), count

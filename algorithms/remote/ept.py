@@ -27,20 +27,19 @@ from ..core.points import Box
 from ..core.progress import SILENT, Progress
 from ..core.temporary import remove
 from ..core.words import counted, option
-from ..crs.stated import stated_wkt
 from ..crs.system import Crs, crs_of_wkt
 from ..las.edits import Edits
 from ..las.opening import open_las
 from ..las.records import read_records
-from ..las.sources import open_source
 from ..las.writing import write_changed
 from ..survey.area import Area
 from ..survey.shapes import Place
 from .addresses import beside, is_address, name_of, shown
-from .answers import Document, Missing, parsed, too_large
+from .answers import Document, Missing, parsed
 from .copc import EVERYWHERE, area_of, levels_of
 from .ept_joining import joined
-from .ept_records import Schema
+from .ept_records import Schema, wkt_of
+from .files import read_local
 from .parts import Parts
 from .transfers import Transfers
 
@@ -84,7 +83,7 @@ class EptPart:
         text, about = transfers.one(lambda: self._document(DESCRIPTION, MOST_DESCRIPTION))
         self._read(about)
         self.box: Box = self._numbers(about.get("boundsConforming") or self._cube)
-        self._wkt = _wkt_of(about.get("srs"))
+        self._wkt = wkt_of(about.get("srs"))
         self.crs = (crs_of_wkt(self._wkt) if self._wkt else None) or Crs()
         if self.kind != "laszip":
             try:
@@ -298,11 +297,7 @@ class EptPart:
         place = beside(self._address, name)
         if is_address(place):
             return self._transfers.read_whole(place, most)
-        with open_source(Path(place)) as file:
-            data = file.read(most + 1)
-        if len(data) > most:
-            raise too_large(place, f"has more than {most:,} bytes")
-        return data
+        return read_local(Path(place), most)
 
     def _path(self, key: Key) -> Path:
         """Return where a tile is on this computer, once it was fetched."""
@@ -318,16 +313,3 @@ class EptPart:
 
 def _name(key: Key) -> str:
     return "-".join(map(str, key))
-
-
-def _wkt_of(srs: object) -> str | None:
-    """Return the CRS of a description as well-known text, if it says one."""
-    about, text = (srs, srs.get("wkt")) if isinstance(srs, dict) else ({}, None)
-    if isinstance(text, str) and text.strip():
-        return text.strip()
-    text = srs if isinstance(srs, str) else ""
-    if str(about.get("authority", "")).upper() == "EPSG":
-        text = f"EPSG:{about.get('horizontal')}"
-    with contextlib.suppress(BareEarthError):  # it is none, or needs a library
-        return stated_wkt(text)
-    return None

@@ -7,12 +7,14 @@ Entwine Point Tile specification 1.1, "schema" and "dataType"; names of dimensio
 
 from __future__ import annotations
 
+import contextlib
 import struct
 from typing import Iterable, Sequence
 
 import numpy as np
 
 from ..core.errors import BareEarthError
+from ..crs.stated import stated_wkt
 from ..las import header as fields
 from ..las.extrabytes import EXTRA_BYTES
 from ..las.lasfile import RECORD_LENGTHS, new_vlr
@@ -156,3 +158,16 @@ def _unpacked(data: bytes, size: int) -> bytes:
         return bytes(zstandard.ZstdDecompressor().decompress(data, max_output_size=size))
     except zstandard.ZstdError as error:
         raise ValueError(str(error)) from error
+
+
+def wkt_of(srs: object) -> str | None:
+    """Return the CRS of a description as well-known text, if it says one."""
+    about, text = (srs, srs.get("wkt")) if isinstance(srs, dict) else ({}, None)
+    if isinstance(text, str) and text.strip():
+        return text.strip()
+    text = srs if isinstance(srs, str) else ""
+    if str(about.get("authority", "")).upper() == "EPSG":
+        text = f"EPSG:{about.get('horizontal')}"
+    with contextlib.suppress(BareEarthError):  # it is none, or needs a library
+        return stated_wkt(text)
+    return None

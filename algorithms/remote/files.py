@@ -212,6 +212,15 @@ class LocalFile(io.FileIO):
         return work()
 
 
+def read_local(path: Path, most: int) -> bytes:
+    """Return a whole file of this computer, of at most `most` bytes."""
+    with open_source(path) as file:
+        data = file.read(most + 1)
+    if len(data) > most:
+        raise too_large(str(path), f"has more than {most:,} bytes")
+    return data
+
+
 def _joined(pieces: list[Range]) -> list[Range]:
     """Return sorted pieces as fewer requests, across the narrowest gaps."""
     wanted = sum(stop - start for start, stop in pieces)

@@ -22,13 +22,13 @@ from ..core.words import counted
 from ..crs.provider import library
 from ..crs.stated import stated_wkt
 from ..crs.system import Crs, crs_of_wkt
-from ..las.sources import open_source
 from ..survey.area import Area
 from ..survey.shapes import Place, Shapes
 from .addresses import checked, ends_with, is_address, name_of, origin_of, referred, shown
-from .answers import Document, parsed, too_large
+from .answers import Document, parsed
 from .copc import area_of
 from .ept import DESCRIPTION
+from .files import read_local
 from .transfers import Transfers
 
 # Endings and media types of clouds of which parts can be read.
@@ -218,10 +218,7 @@ class _Reader:
         if is_address(address):
             text = self._transfers.read_whole(address, most)
         else:
-            with open_source(Path(address)) as file:
-                text = file.read(most + 1)
-            if len(text) > most:
-                raise too_large(address, f"has more than {most:,} bytes")
+            text = read_local(Path(address), most)
         try:
             return parsed(text)
         except ValueError as error:

@@ -1,9 +1,9 @@
-"""The triangle round a query in the Delaunay triangulation, found among the few vertices near it.
+"""The Delaunay triangle that holds a query, found among the few vertices near it.
 
-No triangulation is made. A triangle that holds the query is changed, vertex by vertex, into the
-one whose circumcircle holds none of the vertices. In the terms of the lifting to a paraboloid
-(Edelsbrunner & Seidel 1986) this is the dual simplex method: it looks for the plane below all
-lifted vertices that is highest at the query.
+There is no triangulation. A triangle that holds the query is changed, vertex by vertex, into the
+one whose circumcircle holds no vertex. In the terms of the lifting to a paraboloid (Edelsbrunner &
+Seidel 1986), this is the dual simplex method: it searches the plane below all lifted vertices that
+is highest at the query.
 """
 
 from __future__ import annotations
@@ -13,10 +13,9 @@ import numpy as np
 from ..grids.cells import numbered
 from .triangulation import opposite_areas
 
-# x and y of a missing vertex.
-NOWHERE = 1e6
-# Most exchanges of a vertex. Few triangles need more than ten. With many vertices on one circle,
-# rounding could make the search endless.
+NOWHERE = 1e6  # x and y of a missing vertex
+# Most exchanges of a vertex. Few triangles need more than ten, but with many vertices on one
+# circle, rounding could make the search endless.
 _MOST_STEPS = 60
 # A vertex inside the circle by less than this share of the squared distances counts as on it.
 _ON_CIRCLE = 1e-9
@@ -31,11 +30,11 @@ def enclosing_triangles(
     window: np.ndarray,  # (4,) or (4, q), distances to its west, south, east, north border
     quarters: list[np.ndarray] | None = None,  # of the vertices SW, SE, NE and NW of it
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return the corners of the Delaunay triangles that hold queries, intp (3, q), whether there is
-    one, and whether it is certain, each bool (q,).
+    """Return the corners of the Delaunay triangle that holds each query, intp (3, q), whether there
+    is one, and whether it is certain, both bool (q,).
     """
     # All vertices in the window must be given. A triangle is certain if its circumcircle lies in
-    # the window, so that no vertex beyond matters.
+    # the window, because vertices beyond do not matter then.
     count = x.shape[1]
     corners, found = np.zeros((3, count), dtype=np.intp), np.zeros(count, dtype=bool)
     sure, window = found.copy(), np.broadcast_to(np.reshape(window, (4, -1)), (4, count))
@@ -73,7 +72,9 @@ def enclosing_triangles(
 
 
 def listed(first: np.ndarray, count: np.ndarray) -> np.ndarray:
-    """Return the numbers in runs (rows, q) in one column for each query, filled up with -1."""
+    """Return the numbers of runs, given by first and count (rows, q), in one column for each query,
+    filled up with -1.
+    """
     total = count.sum(axis=0)
     first, count = first.T.ravel(), count.T.ravel()
     listed = np.full((max(total.max(), 1), len(total)), -1)
@@ -91,19 +92,18 @@ def heights_of_four(
     x: np.ndarray, y: np.ndarray, z: np.ndarray, max_edge: float = np.inf
 ) -> tuple[np.ndarray, np.ndarray]:
     """Return heights (q,) on the triangulation of the four vertices round each query (southwest,
-    southeast, northeast, northwest), NaN outside and in gaps, and where they are found.
+    southeast, northeast, northwest), NaN outside and in gaps, and which were found, bool (q,).
     """
-    # The edges from each vertex to the next one and to the one before.
-    # It nearly always equals the triangulation of all vertices: in dense land 99 of 100 heights are
-    # the same, and the others differ by some millimetres. A height is found where all four are
-    # there and one of their triangles holds the query. x, y and z are (4, q), relative to the
-    # query.
+    # In dense land, 99 of 100 heights are those of the triangulation of all vertices, and others
+    # differ by some millimetres. x and y (4, q) are relative to the query. A height is found if all
+    # four vertices are there and one of their triangles holds the query.
+    # The edges from each vertex to the next one and to the one before:
     ahead_x, ahead_y = (np.roll(axis, -1, axis=0) - axis for axis in (x, y))
     behind_x, behind_y = -np.roll(ahead_x, 1, axis=0), -np.roll(ahead_y, 1, axis=0)
     dot = ahead_x * behind_x + ahead_y * behind_y
     cross = ahead_x * behind_y - ahead_y * behind_x
-    # Use the diagonal from southwest to northeast if the angles at the other two vertices add up to
-    # at most 180 degrees.
+    # The diagonal from southwest to northeast is used if the angles at the other two vertices add
+    # up to at most 180 degrees.
     is_first = cross[1] * dot[3] + dot[1] * cross[3] >= 0.0
     start = np.where(is_first, 0, 1)
     opposite, start_x, start_y = start + 2, picked(x, start), picked(y, start)
@@ -146,8 +146,8 @@ def _nearest_of_quarters(
 
 def _lowest(values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Return the lowest value of each column (k, q), and its row; changes `values`."""
-    # The number of the row is stored in the last bits of the values, because an argmin down the
-    # columns takes ten times as long as a minimum.
+    # The last bits of the values hold the number of the row, because an argmin along columns takes
+    # ten times as long as a minimum.
     mask = (1 << int(len(values) - 1).bit_length()) - 1
     bits = values.view(np.int64)
     bits &= ~mask
@@ -165,7 +165,7 @@ def _first_triangle(x: np.ndarray, y: np.ndarray, corners: np.ndarray) -> np.nda
 
 
 def _plane(a: np.ndarray, b: np.ndarray, lifted: np.ndarray) -> tuple[np.ndarray, ...]:
-    """Return both slopes of the plane through lifted corners (3, q), and its level at the query."""
+    """Return the slopes of the plane through lifted corners (3, q), and its level at the query."""
     ux, uy, uw = a[1] - a[0], b[1] - b[0], lifted[1] - lifted[0]
     vx, vy, vw = a[2] - a[0], b[2] - b[0], lifted[2] - lifted[0]
     double_area = ux * vy - uy * vx
@@ -195,8 +195,8 @@ def interpolated(a: np.ndarray, b: np.ndarray, z: np.ndarray) -> np.ndarray:
 
 
 def leaving_corner(a: np.ndarray, b: np.ndarray, x: np.ndarray, y: np.ndarray) -> np.ndarray:
-    """Return which corner (`a`, `b`, (3, q), relative to the query) a new vertex (q,) replaces so
-    that the triangle still holds the query.
+    """Return the corner that a new vertex (q,) replaces so that the triangle still holds the query,
+    given the corners at `a` and `b` (3, q), relative to the query.
     """
     shares, weights = _opposite_areas(a - x, b - y), _opposite_areas(a, b)
     with np.errstate(divide="ignore", invalid="ignore"):

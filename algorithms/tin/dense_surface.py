@@ -1,9 +1,9 @@
 """Heights on the TIN of thinned points, mostly without a triangulation.
 
 Where most cells of the lattice hold a point, the few vertices near a query give its triangle
-(`enclosing`). The other queries lie near gaps. For them, the vertices round the gaps are
-triangulated. The heights are those of the Delaunay triangulation of all vertices, except where only
-the four vertices round a query are used (`heights_of_four`).
+(`enclosing_triangles`). For queries near gaps, the vertices round the gaps are triangulated. The
+heights are those of the Delaunay triangulation of all vertices, except where only the four vertices
+round a query are used (`heights_of_four`).
 """
 
 from __future__ import annotations
@@ -21,21 +21,21 @@ from .lattice_sample import TILE, LatticeSample
 from .local_delaunay import WIDEST, LocalDelaunay, Queries
 from .surface import CellLattice, Surface
 
-# Cells of the lattice along the side of a raster cell, so that the centre of a raster cell is a
-# corner of four lattice cells.
+# Cells of the lattice along the side of a raster cell: the centre of a raster cell is a corner of
+# four of them.
 VERTICES_A_SIDE = 2
-# Lattice cells from the remaining queries within which vertices are used. The circumcircle of a
-# triangle over a gap holds no vertex, so it hardly reaches into land where each cell has one.
+# Distance in lattice cells from the queries near gaps within which vertices are used: the circle of
+# a triangle over a gap holds no vertex, so it does not reach far into land without gaps.
 _RIM = WIDEST
-# Cells within which vertices are triangulated. The others are needed where a circle holds any.
+# The same for vertices that are triangulated at first. Others are added if a circle holds any.
 _NARROW_RIM = 2
-_A_LITTLE = 0.01  # lattice cells: rounding error of a vertex at the border of a tile
-_ROUNDING = 1e-6  # share of a cell: rounding error of an anchor
+_A_LITTLE = 0.01  # rounding error of a vertex at the border of a tile, in lattice cells
+_ROUNDING = 1e-6  # rounding error of an anchor, as a share of a cell
 
 
 class DenseSurface:
-    """The TIN of points, at least one, thinned to the one nearest to the centre of each lattice
-    cell, half a raster cell wide, and the corners of the convex hull.
+    """The TIN of thinned points: the point nearest to the centre of each lattice cell, half a
+    raster cell wide, and the corners of the convex hull.
     """
 
     def __init__(
@@ -63,7 +63,8 @@ class DenseSurface:
         progress: Progress = SILENT,
     ) -> np.ndarray:
         """Return the heights at the centres of the cells north and east of the anchor, float64
-        (rows, columns) from south, NaN outside the hull and in triangles with a longer edge.
+        (rows, columns) from south; NaN outside the hull and in triangles with an edge longer than
+        `max_edge`.
         """
         heights, sure = np.full(shape, np.nan), np.zeros(shape, dtype=bool)
         side = TILE // VERTICES_A_SIDE
@@ -108,8 +109,8 @@ class DenseSurface:
         max_edge: float | None = None,
         progress: Progress = SILENT,
     ) -> np.ndarray:
-        """Return the height at each query, float64 (q,), all in metres; NaN outside the convex
-        hull, and in triangles with a longer edge.
+        """Return the height at each query, float64 (q,), all in metres; NaN outside the hull and in
+        triangles with an edge longer than `max_edge`.
         """
         heights, sure = np.full(len(x), np.nan), np.zeros(len(x), dtype=bool)
 
@@ -133,8 +134,8 @@ class DenseSurface:
 
     def nearest(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
         """Return the height of the vertex nearest to each query."""
-        # Only tiles that may hold it are searched: it is never farther than the nearest hull
-        # corner.
+        # Only the tiles that may hold it are searched. No query is farther from it than from the
+        # nearest corner of the hull.
         from scipy.spatial import cKDTree
 
         def tree(vertices: np.ndarray) -> cKDTree:

@@ -1,4 +1,4 @@
-"""A TIN to which many vertices are added at a time, without triangulating it again."""
+"""A TIN to which many vertices are added at a time, without a new triangulation."""
 
 from __future__ import annotations
 
@@ -9,43 +9,41 @@ import numpy as np
 from ..core.points import Points
 from ..core.progress import SILENT
 from ..core.threads import in_threads, over_parts, parts_of
-from .triangulation import Tin, opposite_areas
+from .triangulation import Tin, opposite_areas, without_flat
 
 # Rounding error of a determinant, as a share of the sum of its terms.
 _ROUNDING = 1e-12
-# A point lies on an edge if twice the area between them is at most this share of the squared length
-# of the edge.
+# A point lies on an edge if twice the area of their triangle is at most this share of the squared
+# length of the edge.
 _ON_EDGE = 1e-10
-# Rounding: a query outside an edge still counts as on it if twice the area between them is below
-# this, in m2.
+# Rounding error: a query beyond an edge still counts as on it if twice the area of their triangle,
+# in square metres, is less than this.
 _OUTSIDE = 1e-11
-# Triangles that a query walks through in one call. It is faster to repeat the rest together.
+# Most triangles that a query crosses in one call. It is faster to call again for those that go on.
 _STEPS = 6
 # Edges whose arrays stay in the processor's cache.
 _EDGES_A_PART = 1 << 15
 # Most rounds of flips. Far fewer are enough, unless rounding makes the flips endless.
 _MOST_STEPS = 1000
-# Steps a metre in which coordinates are compared where four vertices lie on one circle.
+# Steps in a metre to which coordinates are rounded to compare four vertices on one circle.
 _STEPS_A_METRE = 1e5
 
 
 class GrowingTin:
-    """A Delaunay triangulation of vertices in metres near the origin, to which more are added
-    within its convex hull.
-    """
+    """A Delaunay triangulation to which vertices within its convex hull are added."""
 
-    # A vertex splits the triangle that holds it into three; then edges are flipped until no vertex
-    # lies in the circumcircle of a triangle (Lawson 1977). All splits, and all flips that do not
-    # touch each other, are done at once. Where four vertices lie on one circle, the diagonal from
-    # the westernmost is used, so that the triangles depend on the vertices only.
+    # A new vertex splits the triangle that holds it into three. Then edges are flipped until no
+    # vertex lies in the circumcircle of a triangle (Lawson 1977). All splits, and all flips without
+    # a common triangle, are done at once. If four vertices lie on one circle, the diagonal from the
+    # westernmost is used, so that the triangles depend only on the vertices.
     # Half-edge `3 * t + k` is the side of triangle `t` opposite to its corner `k`.
-    # Of the first vertices no two are at the same place, and not all are on one line. They include
-    # the corners of the convex hull of all vertices to come.
+    # The first vertices, in metres near the origin, must be at different places, not all on one
+    # line, and include the corners of the convex hull of all that are added later.
 
     def __init__(self, vertices: Points) -> None:
         tin = Tin(*vertices)
         self.vertices = vertices  # all so far, in the order in which they were added
-        triangles, neighbours = _without_flat(tin)
+        triangles, neighbours = without_flat(tin, _ON_EDGE)
         # int32 (3 * t,): the vertex opposite to each half-edge; those of a triangle run
         # counterclockwise.
         self.corners = tin.source[triangles].astype(np.int32).ravel()
@@ -69,11 +67,11 @@ class GrowingTin:
     def add(
         self, points: Points, triangle: np.ndarray, rank: np.ndarray
     ) -> tuple[np.ndarray, np.ndarray]:
-        """Add vertices (n,), each in another triangle; return which were added, bool (n,), and
-        which triangles have changed, bool (t,).
+        """Add vertices (n,), no two in one triangle; return which were added, bool (n,), and which
+        triangles have changed, bool (t,).
         """
-        # Of two vertices in neighbouring triangles, one of which lies on the common edge, only the
-        # one with the greater rank is added.
+        # If one of two vertices in neighbouring triangles lies on the common edge, only the one
+        # with the greater rank is added.
         edge, is_on_edge = self._nearest_edge(points, triangle)
         added = self._apart(triangle, edge, is_on_edge, rank)
         triangle, edge, is_on_edge = triangle[added], edge[added], is_on_edge[added]
@@ -87,10 +85,9 @@ class GrowingTin:
         return added, changed
 
     def heights(self, x: np.ndarray, y: np.ndarray, triangle: np.ndarray) -> np.ndarray:
-        """Return the heights at queries (q,) within the hull, linear in each triangle; `triangle`
+        """Return the heights at queries (q,) within the hull, NaN where to call again; `triangle`
         (q,), one near each query, is changed to the one that holds it, or to a nearer one.
         """
-        # Heights are NaN where the triangle is farther away: call again for these.
         heights = np.full(len(x), np.nan)
         moving, here = np.arange(len(x)), triangle
         for _ in range(_STEPS):
@@ -112,11 +109,13 @@ class GrowingTin:
         return heights
 
     def ambiguous_edges(self) -> np.ndarray:
-        """Return which half-edges (3 * t,) could be flipped too: four vertices on one circle."""
+        """Return which half-edges (3 * t,) could as well be flipped, as their four vertices lie on
+        one circle.
+        """
         ambiguous = np.zeros(len(self.twins), dtype=bool)
 
         def look(part: slice) -> None:
-            # Each edge once, by one of its half-edges.
+            # Each edge is tested once, by one of its half-edges.
             edges = np.arange(part.start, part.stop)
             edges = edges[self.twins[part] > edges]
             _, equal, is_convex = self._circles(self._quadrangles(edges))
@@ -145,7 +144,7 @@ class GrowingTin:
         return opposite_areas(to_x, to_y)
 
     def _interpolated(self, corners: list[np.ndarray], areas: Iterable[np.ndarray]) -> np.ndarray:
-        # Places may lie outside by rounding. Heights must not be extrapolated.
+        # By rounding, places may lie outside of their triangle, but heights are not extrapolated.
         weights = [np.maximum(area, 0.0) for area in areas]
         height = sum(
             weight * self.vertices.z.take(corner) for weight, corner in zip(weights, corners)
@@ -154,13 +153,13 @@ class GrowingTin:
             return height / (weights[0] + weights[1] + weights[2])
 
     def _next_triangle(self, triangle: np.ndarray, areas: list[np.ndarray]) -> np.ndarray:
-        """Return the neighbour of each triangle towards a place outside; -1 for none."""
+        """Return the neighbour of each triangle towards a place outside of it; -1 for none."""
         lowest = np.minimum(areas[0], areas[1])
         worst = np.where(areas[2] < lowest, 2, areas[1] < areas[0])
         twin = self.twins.take(3 * triangle + worst)
         into = twin // 3
-        # The hull is beyond the edge, because of rounding or because the place is beyond another
-        # edge, too.
+        # At an edge on the hull, the place lies outside by rounding, or is beyond another edge as
+        # well.
         hull = np.flatnonzero(twin < 0)
         for k in range(3):
             twin = self.twins[3 * triangle[hull] + k]
@@ -169,7 +168,7 @@ class GrowingTin:
         return into
 
     def _nearest_edge(self, points: Points, triangle: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return the nearest half-edge of each point's triangle, and if the point lies on it."""
+        """Return the nearest half-edge of the triangle of each point, and if the point is on it."""
         corners = [self.corners[3 * triangle + k] for k in range(3)]
         areas = np.stack(self._opposite_areas(points.x, points.y, corners))
         x, y = (np.stack([values[corner] for corner in corners]) for values in self.vertices[:2])
@@ -182,7 +181,7 @@ class GrowingTin:
     def _apart(
         self, triangle: np.ndarray, edge: np.ndarray, is_on_edge: np.ndarray, rank: np.ndarray
     ) -> np.ndarray:
-        """Return which new vertices can be added together; boolean, shape (n,)."""
+        """Return which new vertices can be added at once; boolean, shape (n,)."""
         apart = np.ones(len(triangle), dtype=bool)
         number = np.full(self.count, -1, dtype=np.int64)
         number[triangle] = np.arange(len(triangle))
@@ -208,7 +207,10 @@ class GrowingTin:
         turn = np.where(on_hull, edge % 3, 0)
         outer = np.stack([3 * triangle + (turn + k) % 3 for k in range(3)])
         old = self.corners[outer]
-        self._grow(len(triangle) + len(inner))
+        added = 3 * (len(triangle) + len(inner))
+        self.corners = np.append(self.corners, np.zeros(added, dtype=np.int32))
+        self.twins = np.append(self.twins, np.full(added, -1, dtype=np.int32))
+        self._moved = np.arange(len(self.corners), dtype=np.int32)
         for part in parts:
             for k in range(3):
                 self.corners[3 * part + k] = old[k]
@@ -220,12 +222,6 @@ class GrowingTin:
         self._join(3 * parts[0, inner] + 2, 3 * parts[2, inner])
         self._join(3 * parts[1] + 2, 3 * parts[2] + 1)
         return edges.ravel()
-
-    def _grow(self, count: int) -> None:
-        """Make room for more triangles."""
-        self.corners = np.append(self.corners, np.zeros(3 * count, dtype=np.int32))
-        self.twins = np.append(self.twins, np.full(3 * count, -1, dtype=np.int32))
-        self._moved = np.arange(len(self.corners), dtype=np.int32)
 
     def _move(self, before: np.ndarray, after: np.ndarray) -> None:
         """Renumber half-edges, also in their twins."""
@@ -251,7 +247,7 @@ class GrowingTin:
             edges = np.concatenate([part[mask] for part, mask in zip(parts, wrong)] or [edges])
             if not len(edges):
                 return
-            # A triangle takes part in one flip at a time: the last one that is written.
+            # A triangle takes part in one flip at a time: the last one that is stored for it.
             pair = np.column_stack((edges, self.twins[edges])) // 3
             numbers = np.arange(len(edges))
             owner[pair.ravel()] = np.repeat(numbers, 2)
@@ -312,30 +308,12 @@ class GrowingTin:
         return self.corners.take(sides)
 
 
-def _without_flat(tin: Tin) -> tuple[np.ndarray, np.ndarray]:
-    """Return triangles and neighbours without the triangles on the hull that have no area."""
-    x, y = tin.x[tin.triangles], tin.y[tin.triangles]
-    ux, uy, vx, vy = (axis[:, k] - axis[:, 0] for k in (1, 2) for axis in (x, y))
-    longest = np.maximum(np.maximum(ux**2 + uy**2, vx**2 + vy**2), (ux - vx) ** 2 + (uy - vy) ** 2)
-    flat = ux * vy - uy * vx <= _ON_EDGE * longest
-    kept, neighbours = np.ones(len(flat), dtype=bool), tin.neighbours.copy()
-    while True:
-        peeled = kept & flat & (neighbours < 0).any(axis=1)
-        if not peeled.any():
-            break
-        kept &= ~peeled
-        neighbours[(neighbours >= 0) & peeled[neighbours]] = -1
-    number = np.where(kept, np.cumsum(kept) - 1, -1)
-    neighbours = np.where(neighbours < 0, -1, number[neighbours])
-    return tin.triangles[kept], neighbours[kept]
-
-
 def _twins(neighbours: np.ndarray) -> np.ndarray:
     """Return the twin of each half-edge from the neighbours (t, 3) of triangles."""
-    own = np.arange(len(neighbours), dtype=np.int32)[:, None]
+    number = np.arange(len(neighbours), dtype=np.int32)[:, None]
     twins = np.full(neighbours.shape, -1, dtype=np.int32)
     for k in range(3):
-        back = neighbours[neighbours[:, k]] == own
+        back = neighbours[neighbours[:, k]] == number
         twins[:, k] = 3 * neighbours[:, k] + back.argmax(axis=1)
     twins[neighbours < 0] = -1
     return twins.ravel()

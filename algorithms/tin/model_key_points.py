@@ -17,27 +17,22 @@ from ..grids.cells import Cells, first_of_each
 from .growing_tin import GrowingTin
 from .triangulation import hull_corners, lowest_of_duplicates
 
-# Rounding error in metres, at the tolerance and at the borders of cells.
-_ROUNDING = 1e-6
-# Before all points, one point of each cell is tested, first in wide and then in narrow cells. About
-# the sides of these cells in metres, and the most cells for which this is done.
+_ROUNDING = 1e-6  # rounding error in metres, at the tolerance and at the borders of cells
+# First one point of each cell is tested, in wide and then in narrow cells: approximate sides of
+# these cells in metres, and the largest number of cells for which this is done.
 _LEVELS = (4.0, 1.0)
 _MOST_CELLS = 1e8
 # Squared distances to the centre of a cell are rounded to this share of its squared side.
 _CENTRAL = 1e-6
-# Points farther away than this, in cells of the grid, and than the least reach, in metres, have no
-# effect.
+# Distance beyond which points have no effect, in cells of the grid, and its least value in metres.
 _REACH = 4.0
 _LEAST_REACH = 40.0
-# Factors of a hash of x and y, and how many of its bits are used.
+# Factors of a hash of x and y, and the number of its bits that are used.
 _MIX = np.array([0x9E3779B97F4A7C15, 0xC2B2AE3D27D4EB4F], dtype=np.uint64)
 _BITS = 20
-# NumPy sorts integers of 16 bits fastest.
-_MOST_SMALL = 1 << 16
-# Points whose arrays stay in the processor's cache.
-_POINTS_A_PART = 1 << 16
-# Most repetitions of the walk through the TIN. Far fewer are enough, unless rounding makes it
-# endless.
+_MOST_SMALL = 1 << 16  # NumPy sorts integers of 16 bits fastest
+_POINTS_A_PART = 1 << 16  # points of a part, whose arrays stay in the processor's cache
+# Most calls of the walk through the TIN. Far fewer are enough, unless rounding makes it endless.
 _MOST_WALKS = 1000
 
 
@@ -87,16 +82,16 @@ def model_key_points(
     progress: Progress = SILENT,
     anchor: tuple[float, float] = (0.0, 0.0),
 ) -> np.ndarray:
-    """Return which ground points a terrain model needs, bool (n,), with cells that have a corner at
-    `anchor` (metres) in each part of a survey; the order of the points does not matter.
+    """Return which ground points are key points, bool (n,), whatever the order of the points; cells
+    of the grid have a corner at `anchor` (metres), which is the same for all parts of a survey.
     """
     # The first key points are the lowest point of each cell of a grid, the outermost point of each
     # cell beside an empty one, and the corners of the convex hull. In rounds, every triangle of
     # their TIN takes the point that lies farthest beyond the tolerance. The first rounds test few
-    # points, the last ones all. In the end every ground point lies within the tolerance of the TIN.
-    # Of points at one place only the lowest is used.
-    # If four key points lie on one circle, this holds for either diagonal. If more than four do, as
-    # on a regular lattice, a few ground points of ten thousand may lie some centimetres beyond.
+    # points, the last ones all. In the end all ground points lie within the tolerance of the TIN.
+    # Of several points at one place, only the lowest is used.
+    # If four key points lie on one circle, this is true for either diagonal. If more than four do,
+    # as on a regular lattice, a few of ten thousand ground points may lie some centimetres beyond.
     chosen = np.zeros(points.count, dtype=bool)
     if not points.count:
         return chosen
@@ -127,8 +122,8 @@ def model_key_points(
 def _sorted(
     points: Points, grid_size: float, anchor: tuple[float, float], progress: Progress
 ) -> tuple[Points, Cells, np.ndarray]:
-    """Return points sorted by cell, relative to a corner of cells, without those above another at
-    one place; the cells; and the indices.
+    """Return the lowest points of all places, sorted by cell and relative to a corner of cells, the
+    cells, and the indices of these points.
     """
     kept = _lowest_of_places(points)
     progress(0.4)
@@ -150,7 +145,7 @@ def _sorted(
 
 def _lowest_of_places(points: Points) -> np.ndarray:
     """Return the indices of the lowest point at each place, ascending."""
-    # A hash: equal for the same place, and hardly ever for two.
+    # A hash is equal for points at one place, and hardly ever for others.
     number = np.empty(points.count, dtype=np.uint64)
     shift = np.uint64(64 - _BITS)
 
@@ -173,7 +168,7 @@ def _lowest_of_places(points: Points) -> np.ndarray:
 
 
 def _hull_corners(points: Points, cells: Cells) -> np.ndarray:
-    """Return which points are the corners of the convex hull, or the two ends of a line."""
+    """Return the indices of the corners of the convex hull, or of the two ends of a line."""
     from scipy import ndimage
 
     # A point is no corner if all eight cells round its own hold points.
@@ -229,7 +224,7 @@ def _most_central(points: Points, size: float, index: np.ndarray) -> np.ndarray:
 
 
 def _of_cells(cells: Cells, points: np.ndarray) -> np.ndarray:
-    """Return for each cell the index of its point, from at most one point a cell."""
+    """Return the index of the point in each cell, given at most one point of each."""
     found = np.zeros(cells.rows * cells.columns, dtype=np.int32)
     found[cells.index[points]] = points
     return found
@@ -253,8 +248,8 @@ class _Keys:
     def densify(
         self, pending: np.ndarray, near: np.ndarray, progress: Progress, is_last: bool = False
     ) -> None:
-        """Choose points until none of the pending (k,) lies beyond the tolerance; `near` (k,) is a
-        point near each of them that has been tested already.
+        """Choose points until none of the pending ones (k,) lies beyond the tolerance; `near` (k,)
+        are points near these that were tested before.
         """
         points, triangle, beyond = self._points, self._triangle, self._beyond
         triangle[pending] = triangle[near]
@@ -308,8 +303,8 @@ class _Keys:
         return np.concatenate(in_threads(within, parts_of(len(pending), _POINTS_A_PART)))
 
     def _ambiguous(self, pending: np.ndarray) -> np.ndarray:
-        """Test points against the other diagonal, too, where four vertices lie on one circle, and
-        return these.
+        """Return the pending points in triangles with four vertices on one circle, after a test
+        against the other diagonal.
         """
         edges = self._tin.ambiguous_edges()
         ambiguous = self._within(edges.reshape(-1, 3).max(axis=1), pending)

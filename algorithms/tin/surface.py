@@ -45,18 +45,16 @@ class CellLattice(NamedTuple):
 
 
 class Surface:
-    """The TIN of points in any order, the lowest of those with the same x and y, which is
-    triangulated block by block.
-    """
+    """The TIN of points, the lowest of those with the same x and y, triangulated block by block."""
 
     # The heights are those of the Delaunay triangulation of all points. A triangle of a block is
-    # used only if its circumcircle holds no point inside, of the block or not: then it is a
-    # triangle of that triangulation (if four points lie on a circle, either diagonal may be used).
-    # Queries in other triangles, for example in a lake that a block cuts, are left until all blocks
-    # are done. Then vertices in circles are added to a TIN of the corners of these triangles, until
-    # there are none.
-    # If `meshed` is given, only these points are triangulated, which include the corners of the
-    # convex hull, and the triangles are checked against all points.
+    # used only if its circumcircle holds no point of any block, because then it is a triangle of
+    # that triangulation (if four points lie on a circle, either diagonal may be used). Queries in
+    # other triangles, for example in a lake that a block cuts, are computed after all blocks: the
+    # corners of these triangles are triangulated, and vertices in circles are added until there
+    # are none.
+    # If `meshed` is given, only these points, which include the corners of the convex hull, are
+    # triangulated, and the triangles are checked against all points.
 
     def __init__(self, points: Points, meshed: np.ndarray | None = None) -> None:
         # Sorted by x.
@@ -82,7 +80,7 @@ class Surface:
         heights = np.full(len(x), np.nan)
         if not len(x) or is_one_line(np.column_stack(self._vertices[:2])):
             return heights
-        # Walks to places outside lead along all of the hull.
+        # Queries outside are left out, because their walks would go along the whole hull.
         inside = np.flatnonzero(self._depth(x, y) > -_ON_HULL)
         if len(inside):
             heights[inside] = self._inside(x[inside], y[inside], max_edge, progress, cells)
@@ -177,10 +175,10 @@ class Surface:
         cells: CellLattice | None,
         progress: Progress,
     ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Return the heights of the queries of a block, on a TIN of the vertices round it, which
-        queries are left (k,), and the vertices (n,) of their triangles.
+        """Return the heights of the queries of a block on a TIN of the vertices in and round it,
+        the queries without a certain height (k,), and the vertices (n,) of their triangles.
         """
-        # A query is left if a vertex lies in the circle of its triangle, or it has none.
+        # A height is not certain if a vertex lies in the circle of its triangle, or there is none.
         vertices, margin = self._vertices, max(_MARGIN * size, _ON_HULL)
         are_all = len(self._meshed) == vertices.count
         borders = x.min() - margin, y.min() - margin, x.max() + margin, y.max() + margin
@@ -210,11 +208,9 @@ class Surface:
         max_edge: float | None,
         cells: CellLattice | None,
     ) -> np.ndarray:
-        """Return heights at queries, on a TIN of some `vertices` to which those needed
-        are added.
-        """
-        # The time depends on the number of triangles that hold queries, not on that of the queries:
-        # a lake has many more cells than vertices on its shore.
+        """Return heights at queries, on a TIN of `vertices` to which others are added as needed."""
+        # The time depends on the number of triangles that hold queries, not on that of the queries.
+        # A lake has many more cells than vertices on its shore.
         heights, active = np.full(len(x), np.nan), np.arange(len(x))
         used, hull = np.union1d(vertices, self._hull[2]), self._hull[2]
         for step in range(_MOST_STEPS):
@@ -229,9 +225,9 @@ class Surface:
             if not len(active):
                 break
             corners = used[tin.source[np.unique(tin.triangles[triangle[is_new]])]]
-            # Each new vertex lowers the paraboloid over its queries, so that this ends without the
-            # vertices that were added for others; but a query on an edge can go to and fro between
-            # the triangles beside it.
+            # Each new vertex lowers the paraboloid over its queries, so that the search ends even
+            # if vertices that were added for other queries are removed. But a query on an edge can
+            # alternate between the triangles beside it, so later they stay.
             stay = corners if step < _FIRST_STEPS else used
             used = np.unique(np.concatenate((stay, hull, in_circle[is_new])))
         return heights
@@ -253,10 +249,10 @@ class Surface:
     def _in_circles(
         self, tin: Tin, triangle: np.ndarray, window: tuple[float, ...] | None = None
     ) -> np.ndarray:
-        """Return the vertex in the circle of each triangle (k,) that is nearest to its centre, -1
-        where there is none; with a window, `tin` has all points in it.
+        """Return the vertex in the circle of each triangle (k,) that is nearest to the centre, -1
+        for none; if a window is given, `tin` must have all points in it.
         """
-        # A triangle without one belongs to the triangulation of all points.
+        # A triangle with an empty circle belongs to the triangulation of all points.
         used, back = np.unique(triangle, return_inverse=True)
         corners = tin.triangles[used].T
         # Relative to a corner, because large coordinates lose digits.

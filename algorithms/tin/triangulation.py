@@ -156,6 +156,26 @@ def lost_triangles(
     return new.query(centre)[0] <= np.hypot(*to_centre.T) * (1.0 + 1e-9) + 1e-6
 
 
+def without_flat(tin: Tin, tolerance: float) -> tuple[np.ndarray, np.ndarray]:
+    """Return triangles and neighbours of a TIN without triangles on the hull whose area, twice, is
+    at most the squared longest edge times a tolerance.
+    """
+    x, y = tin.x[tin.triangles], tin.y[tin.triangles]
+    ux, uy, vx, vy = (axis[:, k] - axis[:, 0] for k in (1, 2) for axis in (x, y))
+    longest = np.maximum(np.maximum(ux**2 + uy**2, vx**2 + vy**2), (ux - vx) ** 2 + (uy - vy) ** 2)
+    flat = ux * vy - uy * vx <= tolerance * longest
+    kept, neighbours = np.ones(len(flat), dtype=bool), tin.neighbours.copy()
+    while True:
+        peeled = kept & flat & (neighbours < 0).any(axis=1)
+        if not peeled.any():
+            break
+        kept &= ~peeled
+        neighbours[(neighbours >= 0) & peeled[neighbours]] = -1
+    number = np.where(kept, np.cumsum(kept) - 1, -1)
+    neighbours = np.where(neighbours < 0, -1, number[neighbours])
+    return tin.triangles[kept], neighbours[kept]
+
+
 def lowest_of_duplicates(x: np.ndarray, y: np.ndarray, z: np.ndarray) -> np.ndarray:
     """Return the indices (v,) of the lowest point at each place."""
     order = np.lexsort((z, y, x))

@@ -11,7 +11,7 @@ from bare_earth.algorithms.filters.stages.outliers import NarrowPits
 from bare_earth.algorithms.filters.trend import between_blocks
 from bare_earth.algorithms.grids import cells as cells_module
 from bare_earth.algorithms.grids import morphology
-from bare_earth.algorithms.grids.cells import Cells, apart, lower_at, spacing
+from bare_earth.algorithms.grids.cells import Cells, lower_at, spacing
 from bare_earth.algorithms.grids.inpaint import inpaint
 from bare_earth.algorithms.grids.morphology import (
     erosion,
@@ -20,6 +20,7 @@ from bare_earth.algorithms.grids.morphology import (
     opening,
     within_square,
 )
+from bare_earth.algorithms.grids.parts import apart
 
 
 def _points(count=500, seed=0):

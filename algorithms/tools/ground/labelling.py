@@ -22,8 +22,9 @@ from ...filters.method import Decisions, warn_of_extent, warn_of_little_ground
 from ...filters.stages.noise import UNTHINNED
 from ...filters.stages.outliers import below_ground
 from ...grids.bridge_decks import bridge_decks
-from ...grids.cells import Cells, apart, keep_spacing
+from ...grids.cells import Cells, keep_spacing
 from ...grids.high_groups import HighGroups
+from ...grids.parts import apart
 from ...las.return_numbers import MULTI_RETURN
 from .explanation import ExplainedCells
 from .looks import Look, with_looks
