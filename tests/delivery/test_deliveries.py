@@ -12,7 +12,7 @@ import pytest
 import toy_delivery
 from independent_water import compare, corners_in_flat_water
 from matrices import quick
-from runs import FAST, FAST_WORDS, Heard
+from runs import FAST, FAST_WORDS, CancelAt, Heard
 from scipy.spatial import cKDTree
 from surveys import classes_of, finished, heights_of, write_points
 
@@ -148,17 +148,6 @@ def with_water(has_key_points=False):
 def files_of(folder):
     found = (path.relative_to(folder).as_posix() for path in folder.rglob("*") if path.is_file())
     return {name for name in found if not name.startswith(("points/", ".bare-earth/"))}
-
-
-class Stops(Progress):
-    """Cancels when so much is done."""
-
-    def __init__(self, share):
-        self._share = share
-
-    def report(self, fraction):
-        if fraction >= self._share:
-            raise Cancelled
 
 
 def test_the_tables_are_complete():
@@ -413,14 +402,14 @@ def test_checkpoints_are_compared_with_points_and_terrain_model(scene, tmp_path)
 @pytest.mark.parametrize("share", [0.0, 0.3, 1.0])
 def test_a_cancel_leaves_nothing_of_one_file(scene, tmp_path, share):
     with pytest.raises(Cancelled):
-        deliver(scene[1], tmp_path / "out", progress=Stops(share), **SMALL)
+        deliver(scene[1], tmp_path / "out", progress=CancelAt(share), **SMALL)
     assert os.listdir(tmp_path) == []
 
 
 def test_many_files_can_be_continued_after_a_cancel(scene, tmp_path):
     target = tmp_path / "out"
     with pytest.raises(FinishedFilesStay):
-        deliver(scene[2], target, progress=Stops(0.95), **SMALL)
+        deliver(scene[2], target, progress=CancelAt(0.95), **SMALL)
     assert files_of(target) == {"delivery.json"}
     assert not json.loads((target / "delivery.json").read_text())["is_finished"]
     before = {path: path.stat().st_mtime_ns for path in (target / "points").glob("*.laz")}
@@ -560,7 +549,7 @@ def test_a_delivery_is_kept_beside_an_old_one_that_a_program_has_open(
 
 def test_a_cancel_before_any_file_is_done_leaves_nothing_of_many(scene, tmp_path):
     with pytest.raises(Cancelled) as stopped:
-        deliver(scene[2], tmp_path / "out", progress=Stops(0.02))
+        deliver(scene[2], tmp_path / "out", progress=CancelAt(0.02))
     assert not isinstance(stopped.value, FinishedFilesStay) and os.listdir(tmp_path) == []
 
 
@@ -730,7 +719,7 @@ def test_records_of_many_files_are_not_among_the_points(scene, tmp_path):
     }
     # A run that goes on finds them, also after one that was stopped; one file has none.
     with pytest.raises(FinishedFilesStay):
-        deliver(scene[2], target, resume=True, progress=Stops(0.5), **SMALL)
+        deliver(scene[2], target, resume=True, progress=CancelAt(0.5), **SMALL)
     deliver(scene[2], target, resume=True, progress=progress, **SMALL)
     assert "2 files are done already." in progress.infos
     assert set(os.listdir(target / "points")) == handed and (target / ".bare-earth").is_dir()

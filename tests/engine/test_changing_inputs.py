@@ -10,15 +10,15 @@ import numpy as np
 import pytest
 import surveys
 from matrices import covering
+from runs import FAST
 
 from bare_earth import BareEarthError, Progress, classify, heights, key_points, terrain
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="open files are locked there")
-METHOD = {"method": "slope", "preset": "whitebox"}
 HERE, DISK = {"threads": 1}, {"threads": 1, "memory": 0.001}
 RUNS = {
-    "classify": (classify, {**METHOD, **HERE}),
-    "classify from disk": (classify, {**METHOD, **DISK}),
+    "classify": (classify, {**FAST, **HERE}),
+    "classify from disk": (classify, {**FAST, **DISK}),
     "height": (heights, HERE),
     "height from disk": (heights, DISK),
     "key points": (key_points, {}),
@@ -125,7 +125,7 @@ def test_a_changed_tile_of_a_survey_is_told_or_made_no_difference(tmp_path, chan
         surveys.cut(folder, surveys.strip(12_000), 6)
         if progress is not None:
             progress.path = folder / "2.laz"
-        done = classify([folder], out, progress=progress, **METHOD)
+        done = classify([folder], out, progress=progress, **FAST)
         return done, surveys.bytes_of(out)
 
     _, expected = survey("undisturbed")

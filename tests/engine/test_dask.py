@@ -12,7 +12,7 @@ from functools import partial
 from pathlib import Path
 
 import pytest
-from runs import temporary_in
+from runs import FAST, CancelAtFirstFile, temporary_in
 from surveys import bytes_of, cut, finished, strip
 
 import bare_earth
@@ -23,7 +23,6 @@ from bare_earth.algorithms.engine import cluster as cluster_module
 
 pytestmark = pytest.mark.processes
 
-FAST = {"method": "slope", "preset": "whitebox"}
 KILLS = int(os.environ.get("BARE_EARTH_KILLS", "10"))
 
 
@@ -170,18 +169,8 @@ def test_workers_of_another_version_are_refused(dask, survey, tmp_path, monkeypa
 
 
 def test_a_cancel_leaves_the_finished_tiles(dask, survey, tmp_path):
-    class Impatient(Progress):
-        is_asked = False
-
-        def info(self, text):
-            self.is_asked = self.is_asked or ".laz:" in text
-
-        def report(self, fraction):
-            if self.is_asked:
-                raise Cancelled
-
     folder, expected = survey
-    progress, out = Impatient(), tmp_path / "out"
+    progress, out = CancelAtFirstFile(), tmp_path / "out"
     with pytest.raises(Cancelled):
         classify([folder], out, progress=progress, scheduler=dask[0], **FAST)
     assert 1 <= len(bytes_of(out)) < 16

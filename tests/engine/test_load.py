@@ -9,11 +9,10 @@ import time
 import numpy as np
 import pytest
 import surveys
+from runs import FAST
 
 from bare_earth import BareEarthError, classify, heights
 from bare_earth.algorithms.filters import METHODS
-
-METHOD = {"method": "slope", "preset": "whitebox"}
 
 
 def scattered(path, count=3000, side=100_000.0):
@@ -42,7 +41,7 @@ def test_a_raster_of_points_scattered_over_100_km_is_refused(tmp_path):
     source, out = scattered(tmp_path / "in.laz", 30), tmp_path / "out.laz"
     begun = time.process_time()
     with pytest.raises(BareEarthError, match=r"raster would have .* cells of 1 m"):
-        classify(source, out, dtm=tmp_path / "dtm.tif", **METHOD)
+        classify(source, out, dtm=tmp_path / "dtm.tif", **FAST)
     assert time.process_time() - begun < 60
     assert list(tmp_path.iterdir()) == [source]
 
@@ -62,7 +61,7 @@ def grid_of_tiles(folder, side, points=40, metres=20.0):
 
 def seconds_of(folder, out):
     begun = time.process_time()
-    done = classify([folder], out, **METHOD)
+    done = classify([folder], out, **FAST)
     assert not done.failures
     return done.done_count, time.process_time() - begun
 
@@ -96,10 +95,10 @@ def test_many_runs_in_one_process_leave_nothing_behind(tmp_path, suffix, record_
     source, out = surveys.write(tmp_path / "in.laz", points), tmp_path / f"out{suffix}"
 
     def run():
-        classify(source, out, dtm=tmp_path / "dtm.tif", **METHOD)
+        classify(source, out, dtm=tmp_path / "dtm.tif", **FAST)
         heights(out, tmp_path / f"height{suffix}")
         with pytest.raises(BareEarthError):
-            classify(tmp_path / "none.las", out, **METHOD)
+            classify(tmp_path / "none.las", out, **FAST)
 
     for _ in range(30):
         run()

@@ -5,6 +5,7 @@ import json
 import laspy
 import numpy as np
 import pytest
+from runs import FAST
 from surveys import bytes_of, cut, finished, strip, write
 from toy_sink import CountPoints
 
@@ -15,8 +16,6 @@ from bare_earth.algorithms.engine.run import Run
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.survey.files import Inputs
 from bare_earth.algorithms.tools.ground.step import LabelGround
-
-SLOPE = {"method": "slope", "preset": "whitebox"}
 
 
 @pytest.fixture
@@ -53,12 +52,12 @@ def test_classes_rasters_and_heights_of_many_files_in_one_go(survey, tmp_path):
 
 
 def test_ground_alone_of_many_files_with_heights_and_without(survey, tmp_path):
-    bare_earth.classify(survey, tmp_path / "all.laz", **SLOPE)
+    bare_earth.classify(survey, tmp_path / "all.laz", **FAST)
     ground = _rows([tmp_path / "all.laz"], "classification")
     ground = ground[ground[:, 3] == 2]
     for heights in (False, True):
         folder, outputs = tmp_path / f"{heights}", {"height_above_ground": heights}
-        summary = bare_earth.classify(tmp_path / "in", folder, ground_only=True, **outputs, **SLOPE)
+        summary = bare_earth.classify(tmp_path / "in", folder, ground_only=True, **outputs, **FAST)
         assert np.array_equal(_rows(finished(folder), "classification"), ground)
         assert summary.ground_count == len(ground)
 
@@ -66,21 +65,21 @@ def test_ground_alone_of_many_files_with_heights_and_without(survey, tmp_path):
 def test_of_ground_alone_there_is_no_surface_of_many_files(survey, tmp_path):
     dsm = tmp_path / "dsm.tif"
     with pytest.raises(BareEarthError, match="need all points"):
-        bare_earth.classify(tmp_path / "in", tmp_path / "out", dsm=dsm, ground_only=True, **SLOPE)
+        bare_earth.classify(tmp_path / "in", tmp_path / "out", dsm=dsm, ground_only=True, **FAST)
 
 
 def test_the_expected_error_of_a_run_that_classifies_is_that_of_its_output(survey, tmp_path):
     # It is told from the points that are not ground as well.
     one, many, after = (tmp_path / f"{name}.tif" for name in ("one", "many", "after"))
-    bare_earth.classify(survey, tmp_path / "out.laz", expected_error=one, **SLOPE)
-    bare_earth.classify(tmp_path / "in", tmp_path / "many", expected_error=many, **SLOPE)
+    bare_earth.classify(survey, tmp_path / "out.laz", expected_error=one, **FAST)
+    bare_earth.classify(tmp_path / "in", tmp_path / "many", expected_error=many, **FAST)
     bare_earth.terrain(tmp_path / "out.laz", expected_error=after)
     assert one.read_bytes() == many.read_bytes() == after.read_bytes()
 
 
 def test_heights_go_on_where_a_run_ended(survey, tmp_path):
     sources, folder = tmp_path / "classified", tmp_path / "out"
-    bare_earth.classify(tmp_path / "in", sources, **SLOPE)
+    bare_earth.classify(tmp_path / "in", sources, **FAST)
     bare_earth.heights(sources, folder)
     before = bytes_of(folder)
     (folder / "3.laz").unlink()
@@ -91,8 +90,8 @@ def test_heights_go_on_where_a_run_ended(survey, tmp_path):
 
 
 def test_key_points_of_many_files_are_as_good_as_those_of_one(survey, tmp_path):
-    bare_earth.classify(tmp_path / "in", tmp_path / "classified", **SLOPE)
-    bare_earth.classify(survey, tmp_path / "classified.laz", **SLOPE)
+    bare_earth.classify(tmp_path / "in", tmp_path / "classified", **FAST)
+    bare_earth.classify(survey, tmp_path / "classified.laz", **FAST)
     one = bare_earth.key_points(tmp_path / "classified.laz", tmp_path / "keys.laz")
     words = ["key-points", str(tmp_path / "classified"), str(tmp_path / "keys")]
     assert main(words) == 0

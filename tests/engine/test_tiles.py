@@ -12,7 +12,7 @@ import laspy
 import numpy as np
 import pytest
 from realdata import real
-from runs import Heard, classify_tiles, environment, temporary_in
+from runs import CancelAtFirstFile, Heard, classify_tiles, environment, temporary_in
 from surveys import (
     CountingJob,
     DeadlyJob,
@@ -549,19 +549,6 @@ def test_labelling_that_fails_fails_the_tiles_of_that_block_only(six, out, tmp_p
     assert bytes_of(out) == bytes_of(tmp_path / "once")
 
 
-class Impatient(Progress):
-    """Cancels when the first tile is done."""
-
-    is_asked = False
-
-    def info(self, text):
-        self.is_asked = self.is_asked or ".laz:" in text
-
-    def report(self, fraction):
-        if self.is_asked:
-            raise Cancelled
-
-
 def test_one_block_is_worked_off_in_this_process(six, tmp_path, monkeypatch):
     def refuse(*_):
         raise OSError("no other process is allowed")
@@ -579,7 +566,7 @@ def test_one_block_is_worked_off_in_this_process(six, tmp_path, monkeypatch):
 @pytest.mark.parametrize("kind", [Threads, Processes])
 def test_a_cancel_is_heard_and_finished_tiles_stay(kind, many, out):
     folder, expected = many
-    progress = Impatient()
+    progress = CancelAtFirstFile()
     with pytest.raises(Cancelled):
         classify_tiles([folder], out, FAST, progress=progress, workers=kind(Resources(threads=2)))
     done = bytes_of(out)
@@ -605,7 +592,7 @@ def test_blocks_labelled_before_a_cancel_are_not_labelled_again(many, out):
                 assert self.seen.setdefault(name, when) == when
 
     with pytest.raises(Cancelled):
-        classify(many[0], out, progress=Impatient(), **run)
+        classify(many[0], out, progress=CancelAtFirstFile(), **run)
     watcher, waiting = Watcher(), states_of(labels)
     watcher.seen.update(waiting)
     classify(many[0], out, progress=watcher, **run)

@@ -11,7 +11,7 @@ import laspy
 import lazrs
 import numpy as np
 import pytest
-from runs import Heard
+from runs import FAST, Heard
 from surveys import bytes_of, cut, strip, write
 
 import bare_earth
@@ -25,7 +25,6 @@ from bare_earth.algorithms.survey.window import read_window
 
 pytestmark = pytest.mark.processes
 
-FAST = {"method": "slope", "preset": "whitebox"}
 COUNT = 400
 # The points of `las.make` lie from 399,990 on, one metre apart.
 BOX = (399_993.0, 5_000_002.0, 399_999.0, 5_000_011.0)

@@ -46,15 +46,29 @@ class Heard(Progress):
         self.warnings.append(text)
 
 
-class CancelAt(Progress):
+class CancelAt(Heard):
     """Cancels from a share of the work on, and knows how far it came."""
 
     def __init__(self, fraction=0.0):
+        super().__init__()
         self.fraction, self.last = fraction, 0.0
 
     def report(self, fraction):
         self.last = max(self.last, fraction)
         if fraction >= self.fraction:
+            raise Cancelled
+
+
+class CancelAtFirstFile(Progress):
+    """Cancels when the first file of a survey is done."""
+
+    is_asked = False
+
+    def info(self, text):
+        self.is_asked = self.is_asked or ".laz:" in text
+
+    def report(self, fraction):
+        if self.is_asked:
             raise Cancelled
 
 

@@ -8,10 +8,10 @@ import pytest
 from fulldisks import TELLS, become_full
 from laspy import CopcReader
 from matrices import covering
-from runs import Heard
+from runs import CancelAt, Heard
 from surveys import write_classified
 
-from bare_earth import BareEarthError, Cancelled, Progress, info
+from bare_earth import BareEarthError, Cancelled, info
 from bare_earth.algorithms.las import copc, copc_octree, copc_points, edits
 from bare_earth.algorithms.las.copc_octree import TOP, Cube, SortedPoints, keys_of, nodes_of
 from bare_earth.algorithms.las.edits import Edits
@@ -335,15 +335,10 @@ def test_memory_is_bounded_whatever_the_number_of_points(las, monkeypatch):
 
 @pytest.mark.parametrize("fraction", [0.0, 0.1, 0.2, 0.35, 0.5, 0.9])
 def test_a_cancel_while_points_wait_on_disk_leaves_nothing(las, few_in_memory, fraction):
-    class Stopping(Progress):
-        def report(self, done):
-            if done >= fraction:
-                raise Cancelled
-
     source = las.make(version=4, point_format=6, records=cloud_of(20_000))
     changes = Edits(classification=classes_of(20_000))
     with pytest.raises(Cancelled):
-        write_changed(source, las.folder / "out.copc.laz", changes, Stopping(), memory=1)
+        write_changed(source, las.folder / "out.copc.laz", changes, CancelAt(fraction), memory=1)
     assert list(las.folder.iterdir()) == [source]
 
 

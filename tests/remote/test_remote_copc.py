@@ -9,11 +9,11 @@ import pytest
 from copcs import many_nodes
 from las_files import evlr, las_bytes, make_records
 from matrices import covering
-from runs import said
+from runs import CancelAt, said
 from surveys import write_classified
 
 import bare_earth
-from bare_earth import BareEarthError, Cancelled, Progress
+from bare_earth import BareEarthError, Cancelled
 from bare_earth.algorithms.las.opening import open_las
 from bare_earth.algorithms.las.records import read_records
 from bare_earth.algorithms.remote import copc, files
@@ -232,20 +232,6 @@ def test_a_page_that_would_be_huge_is_not_asked_for(server, tmp_path, content, m
         bare_earth.fetch(server.add("whole.copc.laz", content), tmp_path / "part.laz")
 
 
-class Cancelling(Progress):
-    """Cancels when so much is done."""
-
-    def __init__(self, share):
-        self.share, self.warnings = share, []
-
-    def report(self, fraction):
-        if fraction > self.share:
-            raise Cancelled
-
-    def warning(self, text):
-        self.warnings.append(text)
-
-
 @pytest.mark.parametrize("share", [0.0, 0.2, 0.75])
 def test_a_cancel_leaves_no_file_and_the_next_run_goes_on(
     server, tmp_path, content, share, monkeypatch
@@ -253,7 +239,7 @@ def test_a_cancel_leaves_no_file_and_the_next_run_goes_on(
     monkeypatch.setattr(files, "_MOST", 20_000)
     monkeypatch.setattr(files, "_FIRST", 4_000)
     address, target = server.add("whole.copc.laz", content), tmp_path / "part.copc.laz"
-    progress, source = Cancelling(share), tmp_path / "whole.copc.laz"
+    progress, source = CancelAt(share), tmp_path / "whole.copc.laz"
     with pytest.raises(Cancelled):
         bare_earth.fetch(address, target, progress=progress)
     assert not target.exists()

@@ -5,7 +5,7 @@ import json
 import laspy
 import numpy as np
 import pytest
-from runs import Heard
+from runs import FAST, Heard
 from surveys import bytes_of, cut, finished, points_of, strip, write
 
 from bare_earth import BareEarthError, classify
@@ -17,8 +17,7 @@ EAST, NORTH = 500_000.0, 5_700_000.0
 TRIANGLE = np.add([(20.0, 10.0), (170.0, 20.0), (60.0, 120.0)], (EAST, NORTH))
 AREA = Area(polygons=((TRIANGLE,),))
 # `test_classification.py` has an area with what each method sees of the points round it.
-SLOPE = {"method": "slope", "preset": "whitebox"}
-ALL = {**SLOPE, "boundary": [(TRIANGLE,)]}
+ALL = {**FAST, "boundary": [(TRIANGLE,)]}
 ONLY = {**ALL, "area_only": True}
 
 
@@ -136,7 +135,7 @@ def test_a_run_goes_on_in_the_same_area_only(inputs, tmp_path):
     summary = classify([inputs / "in"], tmp_path, **ONLY, resume=True)
     assert (summary.kept_count, summary.done_count) == (3, 4)
     assert bytes_of(tmp_path) == before
-    larger = {**SLOPE, "extent": AREA.bounds, "area_only": True, "resume": True}
+    larger = {**FAST, "extent": AREA.bounds, "area_only": True, "resume": True}
     assert classify([inputs / "in"], tmp_path, **larger).kept_count == 0
     assert np.any(points_of(finished(tmp_path))[:, 0] > 15_000)
     assert classify([inputs / "in"], tmp_path, **ALL, resume=True).kept_count == 0
@@ -147,14 +146,14 @@ def test_an_area_that_meets_no_point_is_told(inputs, tmp_path):
     for source in (inputs / "one.laz", [inputs / "in"]):
         for only in (True, False):
             with pytest.raises(BareEarthError, match="Give the area in the CRS of the points"):
-                classify(source, tmp_path / "out.laz", extent=elsewhere, area_only=only, **SLOPE)
+                classify(source, tmp_path / "out.laz", extent=elsewhere, area_only=only, **FAST)
     # Between the files' points, though within their bounds.
     x, y, _ = strip(12_000, 300.0, 150.0)[0] / 100
     gap = EAST + x + 0.002, NORTH + y + 0.002, EAST + x + 0.008, NORTH + y + 0.008
     with pytest.raises(BareEarthError, match="None of the files has points to write"):
-        classify([inputs / "in"], tmp_path / "many", extent=gap, area_only=True, **SLOPE)
+        classify([inputs / "in"], tmp_path / "many", extent=gap, area_only=True, **FAST)
     progress = Heard()
-    classify([inputs / "in"], tmp_path / "all", extent=gap, progress=progress, **SLOPE)
+    classify([inputs / "in"], tmp_path / "all", extent=gap, progress=progress, **FAST)
     assert [text for text in progress.warnings if "No point lies in the area" in text]
 
 

@@ -1,6 +1,7 @@
-"""Addresses of the Planetary Computer: signed anew when it takes long, and the token is nowhere."""
+"""Servers of clouds: certificates, signatures that expire, and stores of objects."""
 
 import json
+import ssl
 
 import pytest
 from copcs import many_nodes
@@ -12,13 +13,95 @@ from bare_earth import BareEarthError
 from bare_earth.algorithms.remote import files, signing, transfers
 
 BLOBS, TOKENS = "usgslidareuwest.blob.core.windows.net", "planetarycomputer.microsoft.com"
-BOX = (400_000.55, 5_000_000.05, 400_052.0, 5_000_000.65)
 SECRETS = [f"sig=S3CRET{number}" for number in range(30)]
+BOX = (400_000.55, 5_000_000.05, 400_052.0, 5_000_000.65)
 
 
 @pytest.fixture(scope="module")
 def content(tmp_path_factory):
     return many_nodes(tmp_path_factory.mktemp("copc"))
+
+
+# Certificates, of an authority that the tests make
+
+
+@pytest.fixture(scope="module")
+def authority():
+    return pytest.importorskip("trustme").CA()
+
+
+@pytest.fixture
+def serve(authority, monkeypatch, tmp_path):
+    """Return what serves a file by https, with a certificate for a name."""
+    monkeypatch.setenv("no_proxy", "*")
+
+    def context(*names, **wanted):
+        secured = ssl.SSLContext(ssl.PROTOCOL_TLS_SERVER)
+        authority.issue_cert(*names, **wanted).configure_cert(secured)
+        return serving(secured)
+
+    return context
+
+
+def trust(authority, monkeypatch, tmp_path):
+    file = tmp_path / "authorities.pem"
+    authority.cert_pem.write_to_path(str(file))
+    monkeypatch.setenv("SSL_CERT_FILE", str(file))
+
+
+def test_an_authority_in_ssl_cert_file_is_trusted(serve, authority, monkeypatch, tmp_path):
+    content = many_nodes(tmp_path)
+    trust(authority, monkeypatch, tmp_path)
+    with serve("localhost", "127.0.0.1") as server:
+        server.add("a.copc.laz", content)
+        address = server.address("a.copc.laz", "localhost")
+        assert address.startswith("https://")
+        bare_earth.fetch(address, tmp_path / "web.copc.laz", extent=BOX)
+        assert len(server.asked) > 1
+    bare_earth.fetch(tmp_path / "plain.copc.laz", tmp_path / "disk.copc.laz", extent=BOX)
+    with_pages = bare_earth.info(tmp_path / "web.copc.laz")
+    assert with_pages.point_count == bare_earth.info(tmp_path / "disk.copc.laz").point_count > 0
+
+
+@pytest.mark.parametrize(
+    ("case", "words"),
+    [
+        ("unknown", "self.signed certificate in certificate chain|unable to get local issuer"),
+        ("of another host", "[Hh]ostname mismatch"),
+        ("expired", "certificate has expired"),
+    ],
+)
+def test_certificates_that_are_not_valid_are_refused(
+    serve, authority, monkeypatch, tmp_path, case, words
+):
+    import datetime
+
+    if case != "unknown":
+        trust(authority, monkeypatch, tmp_path)
+    names = ("elsewhere.example",) if case == "of another host" else ("localhost",)
+    past = datetime.datetime(2020, 1, 1, tzinfo=datetime.timezone.utc)
+    wanted = {"not_after": past} if case == "expired" else {}
+    with serve(*names, **wanted) as server:
+        server.add("a.copc.laz", b"LASF")
+        with pytest.raises(BareEarthError, match=words) as told:
+            bare_earth.fetch(server.address("a.copc.laz", "localhost"), tmp_path / "a.laz")
+        # Nothing was asked for, with a query or without.
+        assert not server.asked
+    assert "The certificate of localhost is not valid" in str(told.value)
+    assert "SSL_CERT_FILE" in str(told.value)
+
+
+def test_https_does_not_lead_to_http(serve, authority, monkeypatch, tmp_path):
+    trust(authority, monkeypatch, tmp_path)
+    with serve("localhost") as server, serving() as plain:
+        server.add("a.copc.laz", b"LASF")
+        server.fault = lambda number, path: f"to {plain.add('a.copc.laz', b'LASF')}"
+        with pytest.raises(BareEarthError, match="which is not followed"):
+            bare_earth.fetch(server.address("a.copc.laz", "localhost"), tmp_path / "a.laz")
+        assert not plain.asked
+
+
+# Addresses of the Planetary Computer: signed anew when it takes long, and the token is nowhere
 
 
 class Planet:
@@ -181,3 +264,79 @@ def test_an_item_of_stac_leads_to_signed_clouds(planet, content, tmp_path):
     done = bare_earth.fetch(address, tmp_path / "part.laz", extent=BOX, follow=True)
     assert done.point_count and len(planet.asked_for_tokens) == 1
     check_secrets(tmp_path)
+
+
+# Stores of objects, as fsspec has them: here in its memory
+
+
+@pytest.fixture
+def fsspec():
+    return pytest.importorskip("fsspec")
+
+
+@pytest.fixture(params=["s3", "gs", "az", "abfs"])
+def bucket(request, content, monkeypatch, fsspec):
+    """A bucket with two clouds; return its address."""
+    from fsspec.implementations.memory import MemoryFileSystem
+
+    store = MemoryFileSystem()
+    monkeypatch.setattr(fsspec, "filesystem", lambda name: {request.param: store}[name])
+    for name in ("a", "b c"):
+        store.pipe(f"{request.param}://lidar/{name}.copc.laz", content)
+    yield f"{request.param}://lidar"
+    store.store.clear()
+
+
+def test_a_part_of_an_object_is_that_of_the_file(bucket, content, tmp_path):
+    (tmp_path / "whole.copc.laz").write_bytes(content)
+    bare_earth.fetch(tmp_path / "whole.copc.laz", tmp_path / "local.copc.laz", extent=BOX)
+    for name in ("a", "b c"):
+        bare_earth.fetch(f"{bucket}/{name}.copc.laz", tmp_path / f"{name}.copc.laz", extent=BOX)
+        found = (tmp_path / f"{name}.copc.laz").read_bytes()
+        assert found == (tmp_path / "local.copc.laz").read_bytes()
+
+
+def test_a_list_in_a_store_names_its_neighbours(bucket, fsspec, tmp_path):
+    items = [
+        {"type": "Feature", "properties": {}, "assets": {"data": {"href": f"./{name}.copc.laz"}}}
+        for name in ("a", "b%20c")
+    ]
+    text = json.dumps({"type": "FeatureCollection", "features": items})
+    fsspec.filesystem(bucket[:-8]).pipe(f"{bucket}/all.vpc", text.encode())
+    done = bare_earth.fetch(f"{bucket}/all.vpc", tmp_path / "all", extent=BOX)
+    assert done.file_count == 2
+
+
+def test_what_is_not_there_is_told(bucket, tmp_path):
+    with pytest.raises(BareEarthError, match=f"{bucket}/none.copc.laz does not exist"):
+        bare_earth.fetch(f"{bucket}/none.copc.laz", tmp_path / "part.laz")
+    assert not list(tmp_path.iterdir())
+
+
+class EndpointConnectionError(Exception):
+    """As those of botocore, which are no OSError."""
+
+
+class NoCredentialsError(Exception):
+    """Another one."""
+
+
+@pytest.mark.parametrize(
+    ("raised", "words"),
+    [
+        (EndpointConnectionError, "EndpointConnectionError, after 6 attempts"),
+        (NoCredentialsError, "You may not read s3://lidar/a.copc.laz .* how fsspec is set up"),
+        (PermissionError, "You may not read"),
+        (ImportError, "needs fsspec .*: pip install fsspec"),
+    ],
+)
+def test_the_errors_of_a_store_are_told(tmp_path, monkeypatch, fsspec, raised, words):
+    class Store:
+        def info(self, path, refresh):
+            raise raised(f"of s3 S3CRET@{path}" if raised is not ImportError else "Install s3fs")
+
+    monkeypatch.setattr(fsspec, "filesystem", lambda name: Store())
+    code, _, errors = said("fetch", "s3://lidar/a.copc.laz", tmp_path / "part.laz")
+    assert code == 1 and "S3CRET" not in errors
+    with pytest.raises(BareEarthError, match=words):
+        bare_earth.fetch("s3://lidar/a.copc.laz", tmp_path / "part.laz")
