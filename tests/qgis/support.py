@@ -10,10 +10,17 @@ from qgis.core import (
     QgsCoordinateReferenceSystem,
     QgsFeature,
     QgsGeometry,
+    QgsLayerTreeGroup,
+    QgsMapRendererParallelJob,
+    QgsMapSettings,
+    QgsPointXY,
     QgsProcessingFeedback,
+    QgsProject,
+    QgsRectangle,
     QgsVectorLayer,
 )
 from qgis.PyQt import sip
+from qgis.PyQt.QtCore import QSize
 
 ROOT = Path(__file__).parents[2]
 ALGORITHM = "bareearth:tindensification"
@@ -100,8 +107,37 @@ def layer_of(kind, wkt, crs="EPSG:25832"):
     return layer
 
 
+def colour_at(layers, x, y):
+    """Return the colour of a map of some layers at a place."""
+    settings = QgsMapSettings()
+    settings.setLayers(layers)
+    settings.setDestinationCrs(layers[0].crs())
+    settings.setOutputSize(QSize(101, 101))
+    settings.setExtent(QgsRectangle.fromCenterAndSize(QgsPointXY(x, y), 10.1, 10.1))
+    job = QgsMapRendererParallelJob(settings)
+    job.start()
+    job.waitForFinished()
+    return job.renderedImage().pixelColor(50, 50)
+
+
+def groups():
+    """Return the nodes of the layers in each group of the project, from above."""
+    return {
+        group.name(): group.children()
+        for group in QgsProject.instance().layerTreeRoot().children()
+        if isinstance(group, QgsLayerTreeGroup)
+    }
+
+
 class Scene:
     def __init__(self, folder, suffix):
         self.path = folder / f"scene{suffix}"
         self.ground = write_scene(self.path)
         self.count, self.ground_count = len(self.ground), int(self.ground.sum())
+
+    def with_classes(self, path, other=6):
+        """Write it with its true classes: the ground, and another one."""
+        las = laspy.read(self.path)
+        las.classification[:] = np.where(self.ground, 2, other)
+        las.write(str(path))
+        return path

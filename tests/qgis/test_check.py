@@ -21,10 +21,7 @@ ALGORITHM = "bareearth:check"
 @pytest.fixture
 def cloud(scene, tmp_path):
     """The scene with its true classes."""
-    las = laspy.read(scene.path)
-    las.classification = np.where(scene.ground, 2, 6)
-    las.write(str(tmp_path / "ground.laz"))
-    return tmp_path / "ground.laz"
+    return scene.with_classes(tmp_path / "ground.laz")
 
 
 @pytest.fixture

@@ -39,9 +39,7 @@ def out(tmp_path):
 @pytest.fixture
 def labelled(scene):
     """The scene with its truth: ground 2, the building 6."""
-    las = laspy.read(scene.path)
-    las.classification[:] = np.where(scene.ground, 2, 6)
-    las.write(str(scene.path))
+    scene.with_classes(scene.path)
     return scene
 
 
@@ -176,9 +174,7 @@ def test_four_lights_are_those_of_gdal(labelled, out):
 def test_classes_above_the_ground(scene, out):
     import processing
 
-    las = laspy.read(scene.path)
-    las.classification[:] = np.where(scene.ground, 2, 1)
-    las.write(str(scene.path))
+    scene.with_classes(scene.path, other=1)
     path = str(out / "classes.laz")
     result = processing.run(ABOVE, {"INPUT": str(scene.path), "OUTPUT": path})
     classes = np.asarray(laspy.read(path).classification)

@@ -20,10 +20,7 @@ ALGORITHM = "bareearth:quality"
 @pytest.fixture
 def cloud(scene, tmp_path):
     """The scene with its true classes."""
-    las = laspy.read(scene.path)
-    las.classification = np.where(scene.ground, 2, 1)
-    las.write(str(tmp_path / "ground.laz"))
-    return tmp_path / "ground.laz"
+    return scene.with_classes(tmp_path / "ground.laz", other=1)
 
 
 def test_run_with_page_and_rasters(registry, cloud, tmp_path, context, log):

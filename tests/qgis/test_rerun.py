@@ -10,9 +10,6 @@ import pytest
 from qgis.core import (
     QgsApplication,
     QgsField,
-    QgsLayerTreeGroup,
-    QgsMapRendererParallelJob,
-    QgsMapSettings,
     QgsPointCloudLayer,
     QgsPointXY,
     QgsProcessingAlgRunnerTask,
@@ -24,8 +21,8 @@ from qgis.core import (
     QgsRectangle,
     QgsVectorLayer,
 )
-from qgis.PyQt.QtCore import QSize, QVariant
-from support import ALGORITHM, Log, layer_of, write_scene
+from qgis.PyQt.QtCore import QVariant
+from support import ALGORITHM, Log, colour_at, groups, layer_of, write_scene
 
 from bare_earth.plugin.styles import loaded
 from bare_earth.plugin.styles.stage import Stage
@@ -62,14 +59,8 @@ def by_name():
     return {layer.name(): layer for layer in layers}
 
 
-def groups():
-    """Return the names of the groups, each with the names of its layers from the top."""
-    children = QgsProject.instance().layerTreeRoot().children()
-    return {
-        inner.name(): [child.name() for child in inner.children()]
-        for inner in children
-        if isinstance(inner, QgsLayerTreeGroup)
-    }
+def names_in_groups():
+    return {name: [child.name() for child in children] for name, children in groups().items()}
 
 
 def lift(path, metres):
@@ -84,15 +75,7 @@ def value_of(layer):
 
 def colour_of(layer):
     """Return the colour of the map at `PLACE`, with this layer alone."""
-    settings = QgsMapSettings()
-    settings.setLayers([layer])
-    settings.setDestinationCrs(layer.crs())
-    settings.setOutputSize(QSize(101, 101))
-    settings.setExtent(QgsRectangle.fromCenterAndSize(PLACE, 10.1, 10.1))
-    job = QgsMapRendererParallelJob(settings)
-    job.start()
-    job.waitForFinished()
-    return job.renderedImage().pixelColor(50, 50).name()
+    return colour_at([layer], PLACE.x(), PLACE.y()).name()
 
 
 def test_the_map_shows_the_new_terrain_in_the_old_group(run, scene, tmp_path):
@@ -101,7 +84,7 @@ def test_the_map_shows_the_new_terrain_in_the_old_group(run, scene, tmp_path):
     outputs["CONTOURS"] = tmp_path / "lines.gpkg"
     values = {"INPUT": str(scene.path), "CONTOUR_INTERVAL": 0.5}
     before = run(ONE_STEP, values, outputs)
-    tree, ids = groups(), {name: data.id() for name, data in before.items()}
+    tree, ids = names_in_groups(), {name: data.id() for name, data in before.items()}
     terrain = before["Terrain model"]
     assert value_of(terrain) == pytest.approx(100.7, abs=0.1)
     assert {feature["ELEV"] for feature in before["Contour lines"].getFeatures()} == set(
@@ -116,7 +99,7 @@ def test_the_map_shows_the_new_terrain_in_the_old_group(run, scene, tmp_path):
     assert {name: value.id() for name, value in after.items()} == {
         "My terrain" if name == "Terrain model" else name: value for name, value in ids.items()
     }
-    ((name, layers),) = groups().items()
+    ((name, layers),) = names_in_groups().items()
     assert {
         name: [layer.replace("My t", "T") + " model" * (layer == "My terrain") for layer in layers]
     } == tree
@@ -159,7 +142,7 @@ def test_a_new_output_joins_the_old_group_in_its_order(run, scene, tmp_path):
     outputs["DSM"] = tmp_path / "dsm.tif"
     run(ONE_STEP, {"INPUT": str(scene.path)}, outputs)
     order = ["Local relief", "Surface model", "Terrain model", "Hillshade"]
-    assert groups() == {"My group": order}
+    assert names_in_groups() == {"My group": order}
 
 
 def test_in_a_thread_of_its_own(run, scene, tmp_path, registry):
@@ -210,7 +193,7 @@ def test_virtual_rasters_are_reloaded(name, run, tmp_path):
         lift(path, 5.0)
     run(f"bareearth:{name}", values, outputs)
     assert value_of(terrain) == pytest.approx(105.7, abs=0.1)
-    assert len(groups()) <= 1
+    assert len(names_in_groups()) <= 1
 
 
 @needs_copc
@@ -227,7 +210,7 @@ def test_points_and_their_classes_are_the_new_ones(times, run, scene, tmp_path):
         colours.add(colour_of(after))
     assert len(colours) == 1 + times and "#ffffff" not in colours
     assert os.path.samefile(after.source(), outputs["OUTPUT"])
-    assert len(groups()) == 1
+    assert len(names_in_groups()) == 1
 
 
 @needs_copc
@@ -365,7 +348,7 @@ def test_the_loop_of_corrections_by_polygons(run, scene, tmp_path):
     assert {layer.id() for layer in layers.values()} == ids
     assert terrain.dataProvider().sample(on_roof, 1)[0] == pytest.approx(112.0, abs=0.01)
     assert terrain.renderer().classificationMax() > 110
-    assert len(groups()) == 1
+    assert len(names_in_groups()) == 1
 
 
 @needs_copc
@@ -408,7 +391,7 @@ def test_a_shipped_model_reloads_its_layers(run, scene, tmp_path):
     }
     values = {"INPUT": str(scene.path), "INTERVAL": 0.5, "ground:OUTPUT": str(tmp_path / "o.las")}
     before = run("bareearth:terraincontours", values, outputs)
-    ids, tree = {layer.id() for layer in before.values()}, groups()
+    ids, tree = {layer.id() for layer in before.values()}, names_in_groups()
     assert tree == {
         "scene: Terrain, hillshade and contours": [
             "Contour lines",
@@ -419,7 +402,7 @@ def test_a_shipped_model_reloads_its_layers(run, scene, tmp_path):
     }
     lift(scene.path, 50.0)
     after = run("bareearth:terraincontours", values, outputs)
-    assert {layer.id() for layer in after.values()} == ids and groups() == tree
+    assert {layer.id() for layer in after.values()} == ids and names_in_groups() == tree
     assert value_of(after["Terrain model"]) == pytest.approx(150.7, abs=0.1)
     assert after["Terrain model"].renderer().classificationMin() > 149
     assert {feature["ELEV"] for feature in after["Contour lines"].getFeatures()} >= {151.0, 155.5}
@@ -432,5 +415,5 @@ def test_a_shipped_model_reloads_its_layers(run, scene, tmp_path):
     scene.path.write_bytes(scene.path.read_bytes()[:3000])
     with pytest.raises(QgsProcessingException):
         run("bareearth:terraincontours", values, outputs)
-    assert all(layer.isValid() for layer in again.values()) and groups() == tree
+    assert all(layer.isValid() for layer in again.values()) and names_in_groups() == tree
     assert value_of(again["Terrain model"]) == pytest.approx(150.7, abs=0.1)

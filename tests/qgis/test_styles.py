@@ -8,21 +8,16 @@ from qgis.core import (
     Qgis,
     QgsExpression,
     QgsExpressionContext,
-    QgsLayerTreeGroup,
     QgsLayerTreeModel,
-    QgsMapRendererParallelJob,
-    QgsMapSettings,
     QgsPointCloudLayer,
-    QgsPointXY,
     QgsProcessingOutputLayerDefinition,
     QgsProcessingParameterDefinition,
     QgsProject,
     QgsRasterLayer,
-    QgsRectangle,
 )
-from qgis.PyQt.QtCore import QSize, Qt
+from qgis.PyQt.QtCore import Qt
 from qgis.PyQt.QtGui import QPainter
-from support import ALGORITHM, remove, write_scene
+from support import ALGORITHM, colour_at, groups, remove, write_scene
 
 from bare_earth import Progress
 from bare_earth.algorithms.core.points import Points
@@ -53,11 +48,9 @@ def run(context):
 
 def tree():
     """Return the groups and layers of the project, from above."""
-    groups = QgsProject.instance().layerTreeRoot().children()
     return {
-        group.name(): [(child.name(), child.itemVisibilityChecked()) for child in group.children()]
-        for group in groups
-        if isinstance(group, QgsLayerTreeGroup)
+        name: [(child.name(), child.itemVisibilityChecked()) for child in children]
+        for name, children in groups().items()
     }
 
 
@@ -72,19 +65,6 @@ def raster(path, values):
 
 def draw(name, layer):
     layers.raster_looks()[name.upper()].dress(layer)
-
-
-def colour_at(layers, x, y):
-    """Return the colour of a map of some layers at a place."""
-    settings = QgsMapSettings()
-    settings.setLayers(layers)
-    settings.setDestinationCrs(layers[0].crs())
-    settings.setOutputSize(QSize(101, 101))
-    settings.setExtent(QgsRectangle.fromCenterAndSize(QgsPointXY(x, y), 10.1, 10.1))
-    job = QgsMapRendererParallelJob(settings)
-    job.start()
-    job.waitForFinished()
-    return job.renderedImage().pixelColor(50, 50)
 
 
 def limits(layer):

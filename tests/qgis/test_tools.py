@@ -36,9 +36,7 @@ def test_a_new_tool_is_in_the_toolbox_with_its_help(registry, provider):
 def test_a_new_tool_runs(registry, provider, scene, tmp_path):
     import processing
 
-    las = laspy.read(scene.path)
-    las.classification[:] = np.where(scene.ground, 2, 6)
-    las.write(str(scene.path))
+    scene.with_classes(scene.path)
     values = {"INPUT": str(scene.path), "NEW_CLASS": 40, "OUTPUT": str(tmp_path / "new.las")}
     results = processing.run(ID, values)
     assert results["NEW_COUNT"] == np.count_nonzero(scene.ground)
