@@ -1,4 +1,4 @@
-"""Heights on a grid: of the lowest ground point, else of the lowest point; gaps are filled."""
+"""The heights of cells from which bridge decks are found, with small gaps filled."""
 
 from __future__ import annotations
 
@@ -11,39 +11,37 @@ import numpy as np
 from ..core.points import Points
 from .cells import Cells, spacing
 
-# Metres: least side of a cell. Where points are sparse, it is half of their spacing, as a multiple
-# of the step.
+# Least side of a cell in metres. Where points are sparse, it is half of their spacing, rounded to
+# the step in metres.
 _CELL = 1.0
 _CELL_STEP = 0.5
-# Step in metres to which the spacing is rounded. It is finer than elsewhere, because the largest
-# rise of a surface depends on it.
+# Step in metres to which the spacing is rounded. It is small, because the largest rise of a surface
+# depends on the spacing.
 _SPACING_STEP = 0.25
-# Spacings up to which a cell has the height of the nearest cell with a point.
+# Distance in spacings up to which an empty cell gets the height of the nearest one with a point.
 _FILLED = 1.5
-# Metres by which a surface rises from point to point, at most, and for each metre between them.
+# Largest rise of a surface from point to point in metres, and what each metre between them adds.
 STEP = 0.2
 STEP_SLOPE = 0.2
-# Width of the border in metres, in addition to the spacing: as much as is tested round a cell.
+# Width of the border in metres, beside the spacing: the distance up to which cells are tested.
 BORDER = 10.0
 
 
 class Relief(NamedTuple):
     """Heights on a grid, with a border of unknown cells."""
 
-    # Side of a cell, and the distance between points if that is larger, in metres.
-    cell: float
-    spacing: float
+    cell: float  # side of a cell in metres
+    spacing: float  # spacing of the points in metres, at least a cell
     border: int  # width of the border in cells
-    # 0 or 1. It is added to row and column, so that the same cells are even wherever the grid
-    # begins.
+    # 0 or 1: added to row and column, so that the same cells are even wherever the grid begins.
     parity: int
     level: float  # metres to add to the heights
-    # float32 (rows, columns): Height of the lowest ground point, else of the lowest point; NaN
-    # where none is near.
+    # float32 (rows, columns): Height of the lowest ground point, or else of the lowest point; NaN
+    # if none is near.
     heights: np.ndarray
     is_ground: np.ndarray  # bool (rows, columns): Whether this is the height of ground
-    # Whether decks may have been taken out of the ground before. Then other points have their
-    # median height: the lowest ones at the sides of a deck lie below it.
+    # Whether decks may have been removed from the ground before. Then the height of cells without
+    # ground is the median, because the lowest points at the sides of a deck lie below it.
     is_cleared: bool = False
 
     @classmethod
@@ -55,7 +53,7 @@ class Relief(NamedTuple):
         cells = Cells.over(points, max(_CELL, _CELL_STEP * round(apart / 2.0 / _CELL_STEP)))
         lowest = cells.minimum(points.z, np.flatnonzero(ground))
         is_ground = np.isfinite(lowest)
-        # Other points count only where there is no ground.
+        # Other points count only in cells without ground.
         others = np.flatnonzero(~ground)
         others = others[~is_ground.ravel()[cells.index[others]]]
         height_of = _medians if is_cleared else Cells.minimum

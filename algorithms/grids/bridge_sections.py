@@ -42,10 +42,9 @@ _RINGS = (0, 1, 2, 4)
 class Rule(NamedTuple):
     """How far the ground must lie below an edge."""
 
-    # Metres, and metres for each metre of distance.
-    drop: float
-    slope: float
-    is_strict: bool  # whether no ground may lie on the drop, and none may rise beyond the foot
+    drop: float  # metres
+    slope: float  # further metres for each metre of distance
+    is_strict: bool  # whether there must be no ground on the drop, and no rise beyond the foot
 
 
 class Sections(NamedTuple):
@@ -79,8 +78,8 @@ class Sections(NamedTuple):
 
 
 def raised_sections(relief: Relief, within: Callable[[Relief], np.ndarray], rule: Rule) -> Sections:
-    """Return the cross-sections of smooth surfaces beyond both ends of which the ground is lower,
-    and nearly equally low; `within` is not called if there can be none.
+    """Return the cross-sections of smooth surfaces with lower ground, at nearly one height, beyond
+    both ends; `within` returns the cells where they may begin.
     """
     start = np.flatnonzero(_edges(relief, rule))
     if len(start):

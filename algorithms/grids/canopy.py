@@ -6,10 +6,8 @@ import numpy as np
 
 from .morphology import median_of_nine, sum_of_nine
 
-# Pits lie deeper than this below the mean of their eight neighbours, in metres.
-_PIT = 2.0
-# Passes in which they are filled, since those of several cells are filled from their borders.
-PIT_PASSES = 3
+_PIT = 2.0  # least depth of a pit in metres below the mean of its eight neighbours
+PIT_PASSES = 3  # passes in which pits are filled: those of several cells from their borders
 
 
 def canopy_height(surface: np.ndarray, terrain: np.ndarray) -> np.ndarray:
@@ -18,7 +16,7 @@ def canopy_height(surface: np.ndarray, terrain: np.ndarray) -> np.ndarray:
 
 
 def without_pits(canopy: np.ndarray) -> np.ndarray:
-    """Return canopy heights with pits filled, nowhere lower; NaN counts as 0 for neighbours."""
+    """Return canopy heights with pits filled and no cell lower; as a neighbour, NaN counts as 0."""
     # As Ben-Arie et al. (2009), "Development of a pit filling algorithm for LiDAR canopy height
     # models", Computers & Geosciences 35(9), the Laplacian of the heights finds the pits, and the
     # median of the neighbours fills them. The median keeps the borders of crowns and buildings. The

@@ -10,34 +10,29 @@ from ..core.points import Points
 from .cells import Cells, lower_at, spacing
 from .morphology import within_square
 
-# Least side of a cell as a multiple of the usual distance between points.
-_SPACINGS = 5.0
-# Metres by which groups of a row may differ in height, however near.
-_ROW_RISE = 2.0
-# Largest number of groups above one another in one place.
-_MOST_ROUNDS = 8
+_SPACINGS = 5.0  # least side of a cell in spacings of the points
+_ROW_RISE = 2.0  # metres by which neighbouring groups of a row may differ in height at any distance
+_MOST_ROUNDS = 8  # largest number of groups above one another in one place
 
 
 @dataclass(frozen=True)
 class HighGroups:
-    """The rule for points that hang in the air."""
+    """A small group of points is high noise if it lies far above all others round it."""
 
-    # Trees, masts and towers have points further down. Wires do not, but there are more of them in
-    # a row.
+    # Trees, masts and towers have points further down. Wires do not, but several of their groups
+    # lie in a row.
 
-    height: float = 10.0  # metres above all other points of the place, and between its groups
+    height: float = 10.0  # least height in metres above all other points, and between two groups
     points: int = 20  # largest number of points of a group
     width: float = 5.0  # largest width of a group in metres
-    reach: float = 10.0  # metres that the place reaches from the group, at least
-    row: float = 25.0  # metres between groups of a row, such as a wire, at most
-    row_climb: float = 0.2  # and one is higher by 2 m and this share of their distance, at most
-    row_share: float = 0.35  # largest width of a row by its length, both as standard deviations
-    most: int = 3  # a row of more groups is an object
+    reach: float = 10.0  # least radius in metres of the surroundings of a group
+    row: float = 25.0  # largest distance in metres of neighbouring groups of a row, such as a wire
+    row_climb: float = 0.2  # largest slope between them, beyond a rise of 2 m
+    row_share: float = 0.35  # largest ratio of width to length of a row, as standard deviations
+    most: int = 3  # largest number of groups in a row: a row of more is an object
 
     def find(self, points: Points) -> np.ndarray:
-        """Return which points, of at least one, belong to a group far above all others of their
-        place, bool (n,).
-        """
+        """Return which points (at least one) are high noise, bool (n,)."""
         cells = Cells.over(points, max(self.reach, _SPACINGS * spacing(points)))
         found = np.zeros(points.count, dtype=bool)
         left, near = np.arange(points.count), np.ones(cells.shape, dtype=bool)
@@ -47,7 +42,7 @@ class HighGroups:
             if not len(hanging):
                 break
             found[hanging] = True
-            # Only in and next to the cells of these others can hang now.
+            # In the next round, other groups can be found only in and beside these cells.
             near = within_square(np.maximum, cells.holding(hanging), 1)
             left = cells.points_in(within_square(np.maximum, near, 1))
             left = left[~found[left]]
@@ -56,7 +51,9 @@ class HighGroups:
         return found
 
     def _hanging(self, cells: Cells, cell: np.ndarray, z: np.ndarray) -> np.ndarray:
-        """Return the few topmost points of cells that lie far above all others round them."""
+        """Return the indices of the topmost points of cells, if they are few and lie far above all
+        others round them.
+        """
         top = self._highest(cells, cell, z)
         # The topmost points of a cell, and the highest of the others.
         is_topmost = z > (top - self.height).ravel()[cell]

@@ -5,16 +5,12 @@ from __future__ import annotations
 import numpy as np
 
 RELAXATIONS = 12
-# Share of unknown cells above which it is faster to compute all cells.
-_MANY = 0.15
-_SAMPLES = 1000
-# Rows that are relaxed together: they stay in the processor's cache.
-_STRIP = 64
-_MANY_CELLS = 1 << 16  # from which on it is worth it
-# Cells this many cells away from all known ones are only interpolated: nobody measured there.
-_FAR = 128
-# Step in metres to which the usual height is rounded, so that a few cells do not change it.
-_LEVEL = 128.0
+_MANY = 0.15  # share of unknown cells above which it is faster to relax all cells
+_SAMPLES = 1000  # number of cells from which the usual height is found
+_STRIP = 64  # rows that are relaxed together, so that they stay in the processor's cache
+_MANY_CELLS = 1 << 16  # number of cells from which on a grid is relaxed in strips
+_FAR = 128  # cells farther than so many cells from all known ones are not relaxed
+_LEVEL = 128.0  # step in metres to which the usual height is rounded, so that it hardly changes
 _QUARTER = np.float32(0.25)
 _THREE_QUARTERS = np.float32(0.75)
 
@@ -24,20 +20,18 @@ First = tuple[int, int]
 
 
 def inpaint(grid: np.ndarray, relaxations: int = RELAXATIONS, first: First = (0, 0)) -> np.ndarray:
-    """Return `grid` with its NaN cells filled by an approximate membrane; all zero if no cell is
-    known.
-    """
+    """Return `grid` with its NaN cells filled by an approximate membrane; 0 if all are NaN."""
     # The known cells are averaged to coarser and coarser grids. These are interpolated back into
     # the gaps ("push-pull"; Gortler et al. 1996), and on each level relaxed towards the mean of the
-    # four neighbours (Laplace's equation). The cost grows with the number of cells, the reach with
-    # the width of the gaps. Coarser cells begin at even rows and columns of the CRS, in which
-    # `first` is the first cell.
+    # four neighbours (Laplace's equation). So the time depends on the number of cells only, and
+    # gaps of any width are filled. Coarser cells begin at even rows and columns of the grid of the
+    # CRS, in which `first` is row and column of the first cell.
     known = np.isfinite(grid)
     if known.all():
         return np.array(grid, dtype=np.float64)
     if not known.any():
         return np.zeros(grid.shape)
-    # Relative to the usual height, single precision is better than a tenth of a millimetre.
+    # Heights relative to the usual one have an error below 0.1 mm in single precision.
     level = _usual(grid, known)
     beside = np.empty(grid.shape, dtype=np.float32)
     np.subtract(grid, level, out=beside, casting="same_kind")
@@ -47,7 +41,7 @@ def inpaint(grid: np.ndarray, relaxations: int = RELAXATIONS, first: First = (0,
 
 
 def _usual(grid: np.ndarray, known: np.ndarray) -> float:
-    """Return the approximate median, rounded so coarsely that a few values do not change it."""
+    """Return the approximate median, rounded so that a few cells hardly ever change it."""
     places = np.flatnonzero(known)
     places = places[:: max(len(places) // _SAMPLES, 1)]
     usual = float(np.median(grid.ravel().take(places)))
@@ -58,7 +52,7 @@ def _filled(grid: np.ndarray, known: np.ndarray, relaxations: int, first: First)
     """Return a grid (float32) with its unknown cells filled."""
     if known.all():
         return grid
-    if max(grid.shape) <= 2:  # two cells can fall into two coarser ones, endlessly
+    if max(grid.shape) <= 2:  # two cells can become two coarser ones, without an end
         return np.where(known, grid, grid[known].mean())
     odd = first[0] % 2, first[1] % 2
     half = first[0] // 2, first[1] // 2
@@ -77,8 +71,8 @@ def _filled(grid: np.ndarray, known: np.ndarray, relaxations: int, first: First)
 
 
 def _relaxed(padded: np.ndarray, unknown: np.ndarray, relaxations: int) -> np.ndarray:
-    """Return a grid whose unknown cells were set to the mean of their four neighbours, repeatedly,
-    but for those far from all known cells.
+    """Return a grid after its unknown cells were set to the mean of their four neighbours, some
+    times; those far from all known cells stay as they are.
     """
     if unknown.size < _MANY_CELLS:
         _relax_all(padded, unknown, relaxations)
@@ -94,7 +88,7 @@ def _relaxed(padded: np.ndarray, unknown: np.ndarray, relaxations: int) -> np.nd
             slice(strip * _STRIP, min((strip + 1) * _STRIP, rows)),
             slice(max(near[0] - _FAR, 0), min(near[-1] + _FAR + 1, columns)),
         )
-        # What lies beyond the cut reaches one cell farther with each relaxation.
+        # Cells beyond the part have an effect one cell farther with each relaxation.
         first = [max(cells.start - relaxations, 0) for cells in core]
         last = [min(cells.stop + relaxations, end) for cells, end in zip(core, unknown.shape)]
         part = padded[first[0] : last[0] + 2, first[1] : last[1] + 2].copy()
@@ -105,7 +99,7 @@ def _relaxed(padded: np.ndarray, unknown: np.ndarray, relaxations: int) -> np.nd
 
 
 def _relax_all(padded: np.ndarray, unknown: np.ndarray, relaxations: int) -> None:
-    """Set the unknown cells to the mean of their four neighbours, repeatedly."""
+    """Set the unknown cells to the mean of their four neighbours, some times."""
     inner, mean = padded[1:-1, 1:-1], np.empty(unknown.shape, dtype=padded.dtype)
     # A sum of products takes a third of the time of copying the unknown cells.
     kept, share = np.where(unknown, np.float32(0.0), inner), _QUARTER * unknown
@@ -145,8 +139,8 @@ def _pad_again(padded: np.ndarray) -> None:
 
 
 def _coarser(grid: np.ndarray, known: np.ndarray, odd: First) -> tuple[np.ndarray, np.ndarray]:
-    """Return the mean of the known cells in each 2 x 2 cells, and where there is a mean; a first
-    row or column with an odd number has no partner and is averaged alone.
+    """Return the mean of the known cells in each 2 x 2 cells, and where there is one; a first row
+    or column with an odd number is averaged alone.
     """
     total, count = np.where(known, grid, np.float32(0.0)), known.astype(np.uint8)
     for axis in (0, 1):

@@ -8,11 +8,12 @@ import numpy as np
 
 from .cells import numbered
 
-# An edge between two cells, and a level: one whole number for both.
+# A node is a point where a line crosses an edge between two cells. Its number is that of the edge,
+# times this, plus that of the level.
 _LEVELS = 1 << 24
-# Edges of a square of four cells: north, east, south, west. For each set of corners that are at or
-# above the level (1 northwest, 2 northeast, 4 southeast, 8 southwest), the edges where a line comes
-# in and goes out; higher ground is on its left. Two opposite corners have a second line.
+# Edges of a square of four cells. For each set of corners that are at or above the level (sum of 1
+# northwest, 2 northeast, 4 southeast, 8 southwest), the edges where a line enters and leaves the
+# square; higher ground is on its left. For two opposite corners, there is a second line.
 _NORTH = 0
 _EAST = 1
 _SOUTH = 2
@@ -23,7 +24,7 @@ _LINES = {
     3: (_WEST, _EAST), 6: (_NORTH, _SOUTH), 12: (_EAST, _WEST), 9: (_SOUTH, _NORTH),
     7: (_WEST, _SOUTH), 14: (_NORTH, _WEST), 13: (_EAST, _NORTH), 11: (_SOUTH, _EAST),
 }  # fmt: skip
-# The two lines of opposite corners, if the middle of the square is low or high.
+# The two lines for opposite corners, if the middle of the square is below the level, and if not.
 _SADDLES = {
     5: (((_WEST, _NORTH), (_EAST, _SOUTH)), ((_EAST, _NORTH), (_WEST, _SOUTH))),
     10: (((_NORTH, _EAST), (_SOUTH, _WEST)), ((_NORTH, _WEST), (_SOUTH, _EAST))),
@@ -52,8 +53,8 @@ class _Piece(NamedTuple):
 
 
 class Isolines:
-    """Finds the lines of equal height, an interval apart, of a raster whose rows are given strip by
-    strip, and keeps only those that cross the last row so far in memory.
+    """Finds the lines of equal height, an interval apart, of a raster, strip by strip; only lines
+    that cross the last row of a strip are kept in memory.
     """
 
     def __init__(self, interval: float, columns: int) -> None:
@@ -62,8 +63,8 @@ class Isolines:
         self._by_last: dict[int, _Piece] = {}
 
     def add(self, heights: np.ndarray, row: int, is_last: bool) -> Iterator[Isoline]:
-        """Add a strip (NaN for no height), and yield the lines that are complete; its first `row`,
-        numbered in the raster, is the last one of the strip before.
+        """Add a strip of heights (NaN for none) from a `row` of the raster on, and yield the lines
+        that are complete; this row must be the last one of the strip before.
         """
         found = _segments(heights, self._interval, row)
         seam = np.iinfo(np.int64).max if is_last else 2 * (row + len(heights) - 1) * self._columns
@@ -203,7 +204,7 @@ def rings_of(cells: np.ndarray) -> list[np.ndarray]:
     lines = [line.places - 1.0 for line in Isolines(1.0, heights.shape[1]).add(heights, 0, True)]
     rings: list[np.ndarray] = []
     for line in sorted(lines, key=lambda line: -abs(_area(line))):
-        # Without the corners that lie on straight lines.
+        # Corners that lie on straight lines are left out.
         on = np.diff(line, axis=0)
         back = np.roll(on, 1, axis=0)
         corners = line[:-1][back[:, 0] * on[:, 1] != back[:, 1] * on[:, 0]]

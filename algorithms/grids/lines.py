@@ -1,4 +1,4 @@
-"""Places along lines and beside them, and the heights of points near these."""
+"""Places along and beside lines, and heights of points near places."""
 
 from __future__ import annotations
 
@@ -10,15 +10,13 @@ from ..core.points import Box
 from .cells import are_inside, cells_at, numbered
 
 _SHIFT = 32
-# Number of nearest points of a place among which one on each side of the line is searched.
-_NEAREST = 16
-# Distance in metres of the places beside a line.
-_BESIDE = 0.01
+_NEAREST = 16  # number of nearest points among which those on each side of a line are searched
+_BESIDE = 0.01  # distance in metres of places beside a line from it
 
 
 class NearPlaces:
-    """The squares that hold places, and the squares round these, which hold all within the side of
-    a square of a place.
+    """The squares that hold some places, and the squares round these: they cover all places within
+    the side of a square.
     """
 
     def __init__(self, x: np.ndarray, y: np.ndarray, side: float) -> None:
@@ -32,7 +30,7 @@ class NearPlaces:
     def of(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
         """Return which places lie in the squares; boolean, shape (q,)."""
         row, column = cells_at(x, y, self._side)
-        # Most are far from the box round the squares.
+        # Most places lie outside of the box round the squares.
         near = are_inside(row - self._first[0], column - self._first[1], self._shape)
         near[near] = np.isin(_numbers(row[near], column[near]), self._codes)
         return near
@@ -48,8 +46,8 @@ def _numbers(row: np.ndarray, column: np.ndarray) -> np.ndarray:
 
 
 def along(line: np.ndarray, step: float, is_closed: bool = False) -> np.ndarray:
-    """Return places float64 (m, 3) along a line (n, 3), at most a step apart, including its
-    corners, with z interpolated, NaN between two corners if one has no z.
+    """Return places along a line (n, 3), at most a step apart, including its corners, (m, 3); z is
+    interpolated, and NaN between corners of which one has no z.
     """
     if is_closed and len(line) and not np.array_equal(line[0, :2], line[-1, :2]):
         line = np.concatenate((line, line[:1]))
@@ -70,7 +68,7 @@ def near_rings(
     bool (n,).
     """
     result = np.zeros(len(x), dtype=bool)
-    # When sorted by y, the places beside an edge are a slice.
+    # Of places that are sorted by y, those near an edge are in one slice.
     order = np.argsort(y, kind="stable")
     x, y, near = x[order], y[order], result.copy()
     west, east = (x.min(), x.max()) if len(x) else (np.inf, -np.inf)
@@ -101,9 +99,7 @@ def _from_edge(x: np.ndarray, y: np.ndarray, start: np.ndarray, end: np.ndarray)
 
 
 class NearestHeights:
-    """The heights of the points of the terrain (m, 3) nearest to places, up to a reach in the unit
-    of x and y.
-    """
+    """The heights of the points (m, 3) nearest to places, within a reach in the unit of x and y."""
 
     def __init__(self, points: np.ndarray, reach: float) -> None:
         from scipy.spatial import cKDTree
@@ -121,8 +117,9 @@ class NearestHeights:
         return heights
 
     def beside(self, line: np.ndarray) -> np.ndarray:
-        """Return the places on the left of a line (n, 3), then those on the right, (2 n, 3),
-        with the height of the nearest point on that side, or else on the other; z may be NaN.
+        """Return the places on the left of the corners of a line (n, 3), then those on the right,
+        (2 n, 3), with the height of the nearest point on the same side, else on the other; z can
+        be NaN.
         """
         across = np.zeros((len(line), 2))
         if len(line) > 1:

@@ -6,15 +6,15 @@ import numpy as np
 
 from ..core.threads import in_threads
 
-# Metres: heights are rounded to this step, which is doubled until the range has few enough steps
-# for 16 bits.
+# Step in metres to which heights are rounded. It is doubled until the range has at most this number
+# of steps, which fits into 16 bits.
 _STEP = 0.01
 _MOST_STEPS = 65_000
-# The middle of the range is put on a multiple of this many steps, so that the rounding of a height
-# does not depend on the other heights.
+# Steps start from a multiple of this number of steps, so that the rounding of a height does not
+# depend on other heights.
 _LEVEL_STEPS = 12_800
-# Metres above or below all but this share of the cells beyond which heights are clipped: they stand
-# out anyway.
+# Heights are clipped so many metres above and below all but this share of the cells: such cells
+# stand out anyway.
 _BEYOND = 200.0
 _NEARLY_ALL = 0.001
 # Cells of a strip with its margin, so few that they stay in the processor's cache.
@@ -25,8 +25,8 @@ def in_steps(grid: np.ndarray) -> tuple[np.ndarray, float]:
     """Return heights in metres without NaN as whole numbers (int16) of steps of 0.01 m, or more if
     they span more than 500 m, and the step.
     """
-    # Morphology on them is three times as fast. The few heights that lie hundreds of metres above
-    # or below the others are clipped, because the steps would be coarse otherwise.
+    # Morphology on whole numbers is three times as fast. The few heights that lie hundreds of
+    # metres above or below all others are clipped, so that the steps stay small.
     low, high = float(grid.min()), float(grid.max())
     if high - low > _BEYOND:
         few = int(_NEARLY_ALL * grid.size)
@@ -45,11 +45,11 @@ def in_steps(grid: np.ndarray) -> tuple[np.ndarray, float]:
 
 
 def opening(grid: np.ndarray, radius: float) -> np.ndarray:
-    """Return the opening of a grid without NaN by a disc of a radius in cells, which cuts off what
-    is narrower than the disc; a cell belongs to it if its centre does.
+    """Return the opening of a grid without NaN by a disc with a radius in cells, which lowers what
+    is narrower than the disc.
     """
-    # The grid is continued with its border cells, far enough for a disc outside it. Otherwise the
-    # upper border of a plain slope would be cut off.
+    # A cell belongs to a disc if its centre does. The grid is continued with its border cells, far
+    # enough for discs outside of it, so that the upper border of a plain slope is not lowered.
     padded = np.pad(grid, 2 * _reach(radius), mode="edge")
     return _extreme(np.maximum, _extreme(np.minimum, padded, radius), radius)
 
@@ -60,16 +60,16 @@ def erosion(grid: np.ndarray, radius: float) -> np.ndarray:
 
 
 def dilation(cells: np.ndarray, radius: float) -> np.ndarray:
-    """Return which cells have one that is True within a disc; bool, shape (rows, columns)."""
+    """Return which cells have a marked one within a disc; bool, shape (rows, columns)."""
     padded = np.pad(cells, _reach(radius)).view(np.uint8)
     return _extreme(np.maximum, padded, radius).view(bool)
 
 
 def closing(cells: np.ndarray, radius: float, shrink: float | None = None) -> np.ndarray:
-    """Return the closing of cells by a disc, all that no disc covers without a cell that is True,
-    with another radius `shrink`, in cells, for the erosion if wanted.
+    """Return the closing of marked cells by a disc, with another radius in cells for the erosion if
+    `shrink` is given.
     """
-    # Cells beyond the grid are False.
+    # Cells beyond the grid are not marked.
     shrink = radius if shrink is None else shrink
     reach = _reach(shrink)
     grown = dilation(np.pad(cells, reach), radius)
@@ -107,10 +107,10 @@ def sum_of_nine(padded: np.ndarray) -> np.ndarray:
 
 
 def median_of_nine(grid: np.ndarray) -> np.ndarray:
-    """Return the median of the 3 x 3 cells round each, without NaN and continued with the border
-    cells, as `scipy.ndimage.median_filter` does.
+    """Return the median of the 3 x 3 cells round each cell of a grid without NaN, continued with
+    its border cells, as `scipy.ndimage.median_filter`.
     """
-    # This takes a tenth of the time, because it does not sort nine cells anew for each cell.
+    # This is ten times as fast, because it does not sort nine cells for each cell.
     padded, median = np.pad(grid, 1, mode="edge"), np.empty_like(grid)
     strip = max(_CELLS_A_STRIP // padded.shape[1], 1)
 
@@ -123,7 +123,7 @@ def median_of_nine(grid: np.ndarray) -> np.ndarray:
 
 def _median_of_nine(padded: np.ndarray) -> np.ndarray:
     """Return the median of the 3 x 3 cells round each, without those at the border."""
-    # Rank each three rows first, then combine the ranks of each three columns.
+    # The cells of each three rows are ranked first, then the ranks of each three columns combined.
     lowest, middle, highest = _ranked(padded[:-2], padded[1:-1], padded[2:])
     left, centre, right = (slice(k, k + padded.shape[1] - 2) for k in range(3))
     return _ranked(

@@ -12,14 +12,12 @@ import numpy as np
 from ..core.progress import SILENT, Progress
 from .morphology import closing, dilation
 
-# Rows and columns of a part of the cells. Files have blocks of as many rows.
+# Rows and columns of a part of the cells. Blocks of files have as many rows.
 _ROWS = 256
 _COLUMNS = 4096
-# Cells that are worked on at a time.
-_CELLS_A_STRIP = 4_000_000
-# Largest radius in cells. With larger ones, cells are put together first.
-MOST_CELLS = 32
-_OUTSIDE = 0
+_CELLS_A_STRIP = 4_000_000  # cells that are worked on at a time
+MOST_CELLS = 32  # largest radius in cells; for larger ones, groups of cells are used
+_OUTSIDE = 0  # number of the gap that reaches the border of the raster
 
 # Returns cells from row `start` to row `end`, both counted from north and possibly beyond the
 # raster, where no cell counts: bool, shape (end - start, columns).
@@ -35,8 +33,8 @@ def strips(shape: tuple[int, int]) -> Iterator[tuple[int, int]]:
 
 
 class Outline:
-    """Which cells of a raster (rows from north) lie inside; kept in so few bytes that any raster
-    fits into memory.
+    """Which cells of a raster (rows from north) lie inside, compressed so that any raster fits into
+    memory.
     """
 
     def __init__(self, shape: tuple[int, int]) -> None:
@@ -57,8 +55,8 @@ class Outline:
                 )
 
     def rows(self, start: int, end: int, first: int = 0, last: int | None = None) -> np.ndarray:
-        """Return the cells of rows, from north, and columns, up to an end that is not included;
-        those beyond the raster are outside.
+        """Return the cells of the rows from `start` to before `end` and the columns from `first` to
+        before `last`; those beyond the raster are outside.
         """
         rows, columns = self.shape
         last = columns if last is None else last
@@ -83,19 +81,19 @@ class Outline:
 
 
 class Discs:
-    """Morphology by discs on rows of a raster, which are read with the margin that is needed."""
+    """Morphology by discs on rows of a raster, which are read with the margin that this needs."""
 
-    # Wide discs are applied to groups of cells, which are fixed in the CRS: `corner` is the number
-    # of the row above the northernmost one and of the westernmost column, counted from (0, 0) of
-    # it. Cells are grown by `grow`, then shrunk by `shrink`, radii in cells: as large for a
-    # closing, 0 for none.
+    # Cells are dilated by a disc of radius `grow`, then eroded by one of radius `shrink`, both in
+    # cells; 0 for no erosion. Wide discs are applied to groups of cells, which are fixed in the
+    # CRS: `corner` is the row above the northernmost one, and the westernmost column, both counted
+    # from its (0, 0).
 
     def __init__(self, read: ReadRows, corner: tuple[int, int], grow: float, shrink: float) -> None:
         self._read = read
         self.group = max(1, math.ceil(max(grow, shrink) / MOST_CELLS))
         self._grow, self._shrink = grow / self.group, shrink / self.group
         if self.group > 1 and shrink:
-            # Groups reach beyond their points, so that the result would be wider than the points.
+            # Groups reach beyond the cells in them, which would make the result too wide.
             self._shrink += 1.0
         self._before = -corner[0] % self.group, corner[1] % self.group
 
@@ -126,10 +124,10 @@ class Discs:
 def with_gaps_inside(
     read: ReadRows, shape: tuple[int, int], progress: Progress = SILENT
 ) -> Outline:
-    """Return the outline of cells: they and the gaps that lie inside them."""
-    # A gap lies inside if no way leads from it over cells with a common side to the border of the
-    # raster. The gaps of strips are joined where they touch, so the result is that of all rows at
-    # once.
+    """Return the outline of cells: these cells and the gaps inside."""
+    # A gap is inside if no path over cells with a common side leads from it to the border of the
+    # raster. The gaps of strips are joined where they touch, so that the result is the same as for
+    # all rows at once.
     cells, joined = Outline(shape), _JoinedGaps()
     for start, end in strips(shape):
         part = read(start, end)
@@ -154,7 +152,7 @@ class _JoinedGaps:
         self._above: np.ndarray | None = None
 
     def add(self, cells: np.ndarray, is_first: bool, is_last: bool) -> None:
-        """Add the cells of the next strip; its gaps are what is False."""
+        """Add the cells of the next strip; cells that are False are gaps."""
         labels, _ = _labelled(cells)
         sides = np.concatenate((labels[:, 0], labels[:, -1]))
         edges = np.unique(np.concatenate((labels[0], labels[-1], sides)))

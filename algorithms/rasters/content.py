@@ -1,4 +1,4 @@
-"""Reads the cells of raster files, and what the files say of them."""
+"""Reads the cells of raster files, and what the files state about them."""
 
 from __future__ import annotations
 
@@ -16,50 +16,46 @@ from ..core.progress import Progress
 from .libraries import GdalErrors, library
 from .undeclared import Undeclared, suspects, undeclared_in
 
-MOST_CELLS = 400_000_000
-# Names that GDAL would fetch from another computer, and names of parts of a file.
+MOST_CELLS = 400_000_000  # most cells of a raster in memory
+# Names of files that GDAL would download, and names of parts of a file.
 _REMOTE = re.compile(r"[a-z][a-z0-9+.-]+://|/vsi", re.IGNORECASE)
 _PART = re.compile(r'[A-Z][A-Z0-9_]+:"?(?P<file>.+?)"?(:[^:\\/]*)?$')
-_DESCRIPTION = 1 << 20
+_DESCRIPTION = 1 << 20  # bytes of a file that are searched for such names
 # First column and row, and numbers of columns and rows.
 Window = tuple[int, int, int, int]
-# Reads what a file says of itself, but none of its cells.
-NO_CELLS: Window = (0, 0, 0, 0)
-# Cells of a raster that are looked through together.
-_CELLS = 4_000_000
-# What is known of the last files in which a usual value for no data was met.
+NO_CELLS: Window = (0, 0, 0, 0)  # to read what a file states, but none of its cells
+_CELLS = 4_000_000  # cells that are read at a time to search values for no data
+# The undeclared values of the last files in which a usual value for no data occurred.
 _FOUND: dict[tuple[object, ...], Undeclared] = {}
 _MOST_FOUND = 64
 
 
 class Content(NamedTuple):
-    """Cells of a band, and what the file says of them: `shape` is that of the whole file, `colour`
-    what the band holds in a picture of bytes.
-    """
+    """Cells of a band, and what the file states about them; texts are empty without a statement."""
 
     values: np.ndarray
-    valid: np.ndarray
-    geotransform: tuple[float, ...]
+    valid: np.ndarray  # bool, in the shape of the values
+    geotransform: tuple[float, ...]  # as of GDAL
     wkt: str
-    unit: str
+    unit: str  # of the band
     scale: float
     offset: float
-    shape: tuple[int, int]
-    description: str
-    colour: str
+    shape: tuple[int, int]  # rows and columns of the whole file
+    description: str  # of the band
+    colour: str  # what a band of bytes shows, as GDAL names it
 
 
 @dataclass(frozen=True, eq=False)
 class MemoryRaster:
-    """A raster in memory, in the place of a file: every tool reads it as one."""
+    """A raster in memory, which tools read like a file."""
 
-    content: Content  # its values are (bands, rows, columns)
+    content: Content  # with values and `valid` of shape (bands, rows, columns)
     name: str
-    undeclared: Undeclared  # which `valid` leaves out
+    undeclared: Undeclared  # values that are no terrain, whose cells are not valid
 
     @classmethod
     def of(cls, content: Content, name: str) -> MemoryRaster:
-        """Return a raster, without the cells whose value is no data that is not declared."""
+        """Return a raster, in which cells with an undeclared value for no data are not valid."""
         found = undeclared_in(zip(content.values, content.valid))
         valid = content.valid
         if found.counts:
@@ -71,7 +67,7 @@ class MemoryRaster:
         return self.name
 
     def read(self, band: int, window: Window | None) -> Content:
-        """Return a band as that of a file."""
+        """Return a band, as `read_content`."""
         content = self.content
         _check_size(self.name, band, len(content.values), content.shape, window)
         column, row, columns, rows = window or (0, 0, *content.shape[::-1])
@@ -83,8 +79,8 @@ Source = Union[str, Path, MemoryRaster]
 
 
 def read_content(source: Source, band: int = 1, window: Window | None = None) -> Content:
-    """Read a band as it is, but that cells are not valid whose value is no data, declared or not;
-    arguments and errors are as for `read_raster`, but the CRS is any.
+    """Read a band as `read_raster`, but as it is and in any CRS; cells with a value for no data,
+    declared or not, are not valid.
     """
     if isinstance(source, MemoryRaster):
         return source.read(band, window)
@@ -103,7 +99,7 @@ def read_content(source: Source, band: int = 1, window: Window | None = None) ->
 
 
 def tell_of_undeclared(source: Source, band: int, progress: Progress) -> None:
-    """Warn of values that were met in a raster, and are no terrain."""
+    """Warn of undeclared values for no data that occurred in a raster."""
     if isinstance(source, MemoryRaster):
         found: Undeclared | None = source.undeclared
     else:
@@ -113,7 +109,7 @@ def tell_of_undeclared(source: Source, band: int, progress: Progress) -> None:
 
 
 def _key(source: Source, band: int) -> tuple[object, ...]:
-    """Return what a file is known by until it changes."""
+    """Return a key for a band of a file, which differs after the file has changed."""
     state = os.stat(str(source)) if os.path.exists(str(source)) else None
     return str(source), band, state and (state.st_size, state.st_mtime_ns)
 
@@ -130,7 +126,7 @@ def _parts(
 
 
 def _check_local(source: str) -> None:
-    """Refuse a URL, and files such as VRT that contain one, since GDAL would fetch it."""
+    """Refuse a URL, and files such as VRT that contain one, because GDAL would download it."""
     if any("\ud800" <= character <= "\udfff" for character in source):
         raise BareEarthError(f"The name of {source} is not UTF-8, which GDAL needs. Rename it.")
     part = _PART.match(source)

@@ -20,17 +20,17 @@ from ..crs.wkt import read_wkt
 from .content import MOST_CELLS, Content, Source, Window, read_content, tell_of_undeclared
 
 NODATA = -9999.0
-# In a raster with more cells, points must cover at least this share, as squares or blocks.
-# Otherwise it is only large because of a few points with stray coordinates.
+# Points must cover at least this share of a raster with more cells than this, counted in squares or
+# blocks: less means that a few points with stray coordinates make it so large.
 _MANY_CELLS = 10_000_000
 _LEAST_COVERED = 0.01
-_SQUARE = 1000.0  # metres: side of a square
-_STEP = 1 << 20
+_SQUARE = 1000.0  # side of a square in metres
+_STEP = 1 << 20  # points that are counted at a time
 NO_GROUND = (
     "There is no ground point to make a terrain model of. Check the selection of points and the"
     " parameters."
 )
-# What bands of pictures hold, in the words of GDAL.
+# What bands of pictures show, as GDAL names it.
 _COLOURS = "red", "green", "blue", "palette"
 
 
@@ -38,17 +38,19 @@ _COLOURS = "red", "green", "blue", "palette"
 class RasterGrid:
     """A north-up grid of square cells in the CRS of the survey."""
 
-    west: float  # in units of the CRS, a multiple of the cell size, so that tiles fit together
-    north: float  # as west
+    # Western and northern border in units of the CRS; multiples of the cell size, so that the
+    # cells of tiles fit together.
+    west: float
+    north: float
     cell_size: float  # in units of the CRS
     columns: int
     rows: int
-    frame: Frame  # of the local metres
+    frame: Frame  # the frame of local coordinates in metres
 
     @classmethod
     def over(cls, points: Points, frame: Frame, cell_size: float) -> RasterGrid:
-        """Return the grid that covers `points`, with cells of `cell_size` metres; refuse no points,
-        and a grid that would be too large.
+        """Return the grid that covers points, with cells of `cell_size` metres; refuse a cloud
+        without points, and too large a grid.
         """
         if points.count == 0:
             raise BareEarthError(NO_GROUND)
@@ -107,7 +109,7 @@ def check_cells(
     covered: Callable[[], float],  # returns the share of the cells with points near
     most: int = MOST_CELLS,
 ) -> None:
-    """Refuse a raster that would have too many cells, or nearly all of them without points."""
+    """Refuse a raster with too many cells, or with very few near points."""
     cells = columns * rows
     if cells > most or (cells > _MANY_CELLS and covered() < _LEAST_COVERED):
         raise BareEarthError(
@@ -133,9 +135,9 @@ class Raster(NamedTuple):
     heights: np.ndarray
     geotransform: tuple[float, ...]  # as of GDAL
     frame: Frame  # its origin is not used
-    unit: str = ""  # of the band; empty if it states none
-    whole: tuple[int, int] = (0, 0)  # rows and columns of the file, if only some cells were read
-    states_unit: bool = False  # whether band, description or CRS state the unit of the heights
+    unit: str = ""  # unit of the band; empty if it states none
+    whole: tuple[int, int] = (0, 0)  # rows and columns of the whole file
+    states_unit: bool = False  # whether the band, its description or the CRS states the unit
     source: Source = ""
     band: int = 1
 
@@ -146,12 +148,12 @@ class Raster(NamedTuple):
         return read_raster(self.source, self.band, window=window).heights
 
     def tell(self, progress: Progress) -> None:
-        """Warn, when the cells have been read, of those that hold no terrain."""
+        """Warn, after the cells have been read, of undeclared values for no data."""
         tell_of_undeclared(self.source, self.band, progress)
 
     @property
     def crs(self) -> Crs:
-        """The CRS that the file states; without anything if it states none."""
+        """The CRS that the file states; an empty one if it states none."""
         return (crs_of_wkt(self.frame.wkt) if self.frame.wkt else None) or Crs()
 
     @property
@@ -259,7 +261,7 @@ def stated_units(content: Content) -> tuple[float | None, float | None]:
 
 
 def _require_measurable(source: Source, content: Content) -> None:
-    """Refuse Web Mercator and its kin where lengths are far too long."""
+    """Refuse Mercator projections in which lengths are wrong at the place of the raster."""
     crs = crs_of_wkt(content.wkt) if content.wkt else None
     west, a, b, north, c, d = content.geotransform
     rows, columns = content.shape

@@ -49,16 +49,15 @@ GREY_UPSIDE_DOWN: Stops = ((0.0, "#ffffff"), (1.0, "#000000"))
 
 
 class Ramp(NamedTuple):
-    """Colours from a low to a high value, which are those of nearly all cells if not given."""
+    """Colours from a low to a high value."""
 
     stops: Stops
-    low: float | None = None
-    high: float | None = None
-    # Their least distance, so that noise of millimetres does not look like relief.
-    least: float = 0.5
-    is_even: bool = False  # reaches as far below 0 as above
-    multiplies: bool = False  # a hillshade below stays visible
-    line: str = ""  # colour in profiles; the layer then is one of elevations
+    low: float | None = None  # None: nearly all cells are higher
+    high: float | None = None  # None: nearly all cells are lower
+    least: float = 0.5  # least difference of both: noise of millimetres must not look like relief
+    is_even: bool = False  # whether it reaches as far below 0 as above
+    multiplies: bool = False  # whether a hillshade below stays visible
+    line: str = ""  # colour in profiles if the layer is one of elevations
 
 
 class Picture(NamedTuple):
@@ -88,5 +87,6 @@ class Look(NamedTuple):
 
     style: Style
     height: int  # the greatest is on top
-    # Of the layers that hide each other only that with the greatest is visible; 0: none.
+    # Of layers that hide each other, only the one with the greatest number is visible at first; 0
+    # for a layer that hides no other.
     hides: int = 0

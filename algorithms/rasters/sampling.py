@@ -1,4 +1,4 @@
-"""Heights of a raster at any places. Cells are read where they are needed, so memory is bounded."""
+"""Heights of a raster at places. Only the cells that are needed are read, to limit the memory."""
 
 from __future__ import annotations
 
@@ -18,19 +18,18 @@ from .content import MemoryRaster, Source, tell_of_undeclared
 from .geotiff import read_raster, tell_of_units
 
 _SIDE = 512  # cells along a side of the squares that are read
-_MOST_KEPT = 16  # of these in memory
-# Metres above or below a terrain model: if nearly all points lie farther, something is wrong.
+_MOST_KEPT = 16  # most squares in memory
+# Metres above and below a terrain model: a warning tells if nearly all points lie farther away.
 FAR_ABOVE = 20.0
 FAR_BELOW = 2.0
-# Points from which this is known.
-_ENOUGH = 1_000_000
+_ENOUGH = 1_000_000  # number of points that are enough to know this
 _STATE_IT = (
     "If the unit of the raster is another one, state it: 'gdal_edit.py -units ft RASTER', or m."
 )
 
 
 def _stamp_of(source: Source) -> tuple[int, ...]:
-    """Return size and time of the last change of a file; nothing of what is none."""
+    """Return size and time of the last change of a file; an empty tuple without a file."""
     if isinstance(source, MemoryRaster) or not Path(source).exists():
         return ()
     state = Path(source).stat()
@@ -42,19 +41,18 @@ class HeightRaster:
     """A raster of heights, such as a terrain model, that need not fit into memory."""
 
     path: Source  # the file, or a part of one as GDAL names it
-    # Size and time of the last change of the file, so that a changed file is noticed
-    state: tuple[int, ...]
+    state: tuple[int, ...]  # size and time of the last change of the file
     shape: tuple[int, int]  # rows and columns
     geotransform: tuple[float, ...]  # geotransform of GDAL
     crs: Crs | None  # its CRS; None if it states none
-    # Metres in the unit of the heights: as the band or the CRS states, or else that of x and y;
-    # None if it states neither a unit nor a CRS
+    # The unit of the heights in metres: that of the band or the CRS, else that of x and y; None if
+    # it states neither a unit nor a CRS.
     unit: float | None
     states_unit: bool  # whether it states the unit of the heights
 
     @classmethod
     def of(cls, source: Source, progress: Progress = SILENT) -> HeightRaster:
-        """Return a raster, of which only one cell is read."""
+        """Return the raster of a file; only one cell is read."""
         first = read_raster(source, progress=progress, window=(0, 0, 1, 1))
         wkt, name, stamp = first.frame.wkt, source, _stamp_of(source)
         if not isinstance(source, MemoryRaster):
@@ -74,7 +72,7 @@ class HeightRaster:
         )
 
     def tell(self, crs: Crs, progress: Progress) -> None:
-        """Warn if heights of points in a CRS may not fit to those of the raster."""
+        """Warn if heights of points in a CRS may not be comparable with those of the raster."""
         facts = read_wkt(self.crs.wkt) if self.crs and self.crs.wkt else None
         tell_of_undeclared(self.path, 1, progress)
         tell_of_units(self.path, self.unit, facts and facts.vertical_unit, progress)
@@ -117,7 +115,7 @@ class _Square(NamedTuple):
 
 
 class HeightSampler:
-    """Returns heights of a raster at places, in its unit; only one thread may use it."""
+    """Returns heights of a raster at places, in the unit of the raster; for a single thread."""
 
     def __init__(self, raster: HeightRaster) -> None:
         self._raster, self.unit = raster, raster.unit
@@ -173,14 +171,14 @@ def _interpolated(square: _Square, row: np.ndarray, column: np.ndarray) -> np.nd
 
     heights, (rows, columns) = square.heights, square.heights.shape
     row, column = row - square.row, column - square.column
-    own = heights[
+    of_cell = heights[
         np.clip(row.astype(np.intp), 0, rows - 1), np.clip(column.astype(np.intp), 0, columns - 1)
     ]
-    # Relative to the centres of cells; beyond the outermost ones, heights stay the same.
+    # Places are relative to the centres of cells. Beyond the outermost ones, heights are constant.
     known, places = ~np.isnan(heights), np.array((row - 0.5, column - 0.5))
     total, weights = (
         map_coordinates(values, places, np.float64, order=1, mode="nearest")
         for values in (np.where(known, heights, 0.0), known.astype(np.float64))
     )
     found = np.divide(total, weights, out=np.full(len(row), np.nan), where=weights > 0.0)
-    return np.where(np.isnan(own), np.nan, found)
+    return np.where(np.isnan(of_cell), np.nan, found)

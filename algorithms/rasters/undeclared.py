@@ -13,24 +13,24 @@ _USUAL = (
     -999.0, -9999.0, -10_000.0, -32_767.0, -32_768.0, -99_999.0, -999_999.0, -(2.0**31),
     9999.0, 32_767.0, 65_535.0, 99_999.0, 999_999.0,
 )  # fmt: skip
-# Between these is none of them.
+# None of these values lies between the two.
 _LOW = -999.0
 _HIGH = 9999.0
-# No terrain is so high or so low, in any unit; the least number of float32 is.
+# No terrain is so high or so low in any unit, but the least number of float32 is.
 _ABSURD = 1e9
-# Terrain reaches them only over heights between: no other height is nearer to one of them than
-# this, in the unit of the band, and than this share of the range of all others.
+# Such a value is no terrain if all other heights differ from it by more than this, in the unit of
+# the band, and than this share of their range: terrain would have heights in between.
 _FAR = 500.0
 _SHARE = 0.1
 
 
 class Undeclared(NamedTuple):
-    """The values that are no terrain, and how many cells have each."""
+    """The values of a raster that are no terrain."""
 
-    counts: dict[float, int]
+    counts: dict[float, int]  # number of cells with each value
 
     def among(self, values: np.ndarray, valid: np.ndarray) -> np.ndarray:
-        """Return which valid cells have such a value."""
+        """Return which valid cells have one of these values, or an absurd one."""
         found = valid & ((values <= _LOW) | (values >= _HIGH))
         doubtful = values[found]  # few, but in high mountains in feet
         is_absurd = np.isfinite(doubtful) & ((doubtful <= -_ABSURD) | (doubtful >= _ABSURD))
@@ -52,15 +52,15 @@ _USUAL_ONES = Undeclared(dict.fromkeys(_USUAL, 0))
 
 
 def suspects(values: np.ndarray, valid: np.ndarray) -> np.ndarray:
-    """Return which valid cells have a usual value for no data, whatever the others have."""
+    """Return which valid cells have a usual value for no data, which may be terrain."""
     if values.dtype.kind not in "iuf" or values.dtype.itemsize == 1:
         return np.zeros(values.shape, dtype=bool)
     return _USUAL_ONES.among(values, valid)
 
 
 def undeclared_in(parts: Iterable[tuple[np.ndarray, np.ndarray]]) -> Undeclared:
-    """Return the values of a whole raster that are no terrain, given the cells of its parts, and
-    which of them are valid.
+    """Return the values of a whole raster that are no terrain, given the cells of its parts and
+    which are valid.
     """
     low, high = np.inf, -np.inf
     counts: dict[float, int] = {}

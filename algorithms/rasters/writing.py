@@ -24,23 +24,22 @@ from .libraries import GdalErrors, library
 if TYPE_CHECKING:
     from rasterio.crs import CRS
 
-# Most cells of a raster that is collected in memory, which is faster than in a file.
+# Most cells that are collected in memory, which is faster than in a temporary file.
 _MOST_IN_MEMORY = 64_000_000
-# Cells along a side of a block of the file.
-BLOCK_SIDE = 256
+BLOCK_SIDE = 256  # cells along a side of a block of the file
 _OPTIONS = {
     "COMPRESS": "DEFLATE", "PREDICTOR": "YES", "BLOCKSIZE": str(BLOCK_SIDE), "BIGTIFF": "IF_SAFER",
     "OVERVIEW_RESAMPLING": "AVERAGE", "NUM_THREADS": "ALL_CPUS",
 }  # fmt: skip
-# In that file: cells along the edge of a tile, and bytes for the index of a tile.
+# Of the temporary file: cells along the side of a tile, and bytes for the index of a tile.
 _TILE = 256
 _BYTES_ABOUT_A_TILE = 512
 _WAITING = {"TILED": "YES", "BIGTIFF": "IF_SAFER", "SPARSE_OK": "TRUE"}
 
 
 def raster_file(outputs: Outputs, path: Path) -> Path:
-    """Return a temporary file for a raster; the .aux.xml file of an old one will be removed."""
-    # It has statistics of the old cells, by which QGIS would stretch its colours.
+    """Return a temporary file for a raster; the .aux.xml file of an old raster will be removed."""
+    # QGIS would stretch the colours by the statistics of the old cells in it.
     return outputs.file(path, [f"{path.name}.aux.xml"])
 
 
@@ -55,13 +54,13 @@ class Rows(NamedTuple):
 
 
 class Band(NamedTuple):
-    """Properties of the bands: value for no data, description and unit, number of bands, CRS."""
+    """Properties of the bands of a raster."""
 
     nodata: float
     description: str
     unit: str
-    bands: int = 1
-    wkt: str | None = None  # with a vertical CRS only if the cells are heights
+    bands: int = 1  # number of bands
+    wkt: str | None = None  # CRS, with a vertical one only if the cells are heights
 
     @classmethod
     def of(cls, grid: RasterGrid | Raster, nodata: float, shows: str, bands: int = 1) -> Band:
@@ -83,7 +82,7 @@ class Band(NamedTuple):
 
 
 def _wkt_of(wkt: str | None, is_height: bool) -> str | None:
-    """Return the CRS of heights, or of other cells, which have no vertical one."""
+    """Return the CRS of a raster, without a vertical one if its cells are not heights."""
     facts = read_wkt(wkt) if wkt else None
     if wkt is None or facts is None or not facts.has_vertical:
         return wkt
@@ -187,14 +186,14 @@ def _write_with_gdal(
             copy = band = dataset = None
             errors.check(path)
     finally:
-        # Windows removes no file that is open.
+        # Windows does not remove open files.
         copy = band = dataset = None
         if waiting:
             remove(waiting)
 
 
 def _tags(about: Band) -> dict[str, str]:
-    """Return what the file says about itself, without a time, so that equal runs are equal."""
+    """Return the metadata of the file, without a time, so that equal runs make equal files."""
     return {
         "TIFFTAG_SOFTWARE": f"Bare Earth {__version__}",
         "TIFFTAG_IMAGEDESCRIPTION": about.description,
@@ -225,7 +224,7 @@ def _write_with_rasterio(
     if rows.bands > 1:
         profile["photometric"] = "RGB"
     try:
-        # Without .aux.xml file, which would be left with the temporary name.
+        # No .aux.xml file is written, because it would keep the temporary name.
         with rasterio.Env(GDAL_PAM_ENABLED="NO"), MemoryFile() as cells, MemoryFile() as copy:
             name = str(waiting or cells.name)
             with rasterio.open(name, "w", **profile) as dataset:

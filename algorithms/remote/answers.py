@@ -1,7 +1,8 @@
-"""What an answer of a server is worth: only what was asked for, of the same file, is taken.
+"""Checks of the answers of servers: only the requested bytes of the same file are accepted.
 
-Servers answer ranges with whole files, other ranges, compressed bytes, or of a file that was
-replaced; libraries that do not notice give fewer points, or wrong ones, without an error.
+Servers may answer a request for a range with a whole file, another range, compressed bytes, or
+bytes of a file that was replaced. Libraries that do not notice this return too few or wrong points
+without an error.
 
 References
 ----------
@@ -20,17 +21,17 @@ from typing import Any, Dict, NamedTuple, Protocol
 from ..core.errors import BareEarthError
 from .addresses import host_of, shown
 
-# No more digits than sizes of files have.
+# Numbers have no more digits than sizes of files.
 _RANGE = re.compile(r"bytes ([0-9]{1,18})-([0-9]{1,18})/([0-9]{1,18})")
 _NUMBER = re.compile(r"[0-9]{1,18}")
 _AGAIN = (408, 425, 429, 500, 502, 503, 504)
 REDIRECTS = (301, 302, 303, 307, 308)
 _GZIP = "gzip"
-# Bytes of memory that Python needs at most for an object, a list, a member and a value of JSON, by
-# the mark that each has.
+# Most bytes of memory that Python needs for an object, a member, a list and a value of JSON, by a
+# character that each contains.
 _COSTS = {b"{": 64, b"[": 72, b":": 150, b",": 40}
 _MOST_MEMORY = 600_000_000  # bytes for a whole document
-# Parameters of the query that say that an address is signed: of Azure, Amazon and Google.
+# Parameters in the query of a signed address, of Azure, Amazon and Google.
 _SIGNED = re.compile(r"[?&](sig|X-Amz-Signature|Signature|X-Goog-Signature)=", re.IGNORECASE)
 # The names and values of a document in JSON, which may be of any kind until they are checked.
 Document = Dict[str, Any]
@@ -44,13 +45,13 @@ class Headers(Protocol):
 
 
 class Unfinished(Exception):
-    """The answer is missing or incomplete; the next one may be right."""
+    """There is no complete answer, but another attempt may succeed."""
 
     def __init__(self, reason: str, pause: float = 0.0, data: bytes = b"") -> None:
         super().__init__(reason)
-        self.pause = pause  # seconds that the server asks for
-        self.data = data  # what came of the bytes that were asked for, from their first one on
-        self.is_stale = False  # whether only a connection was too old
+        self.pause = pause  # seconds to wait that the server states
+        self.data = data  # the first of the requested bytes, if some came
+        self.is_stale = False  # whether the only reason is a connection that was kept too long
 
 
 class Missing(BareEarthError):
@@ -62,7 +63,7 @@ class Expired(BareEarthError):
 
 
 class State(NamedTuple):
-    """What shows whether a remote file has changed."""
+    """The version of a remote file, as far as the server states it."""
 
     size: int  # bytes
     etag: str  # of the server for this version of the file; empty if there is none
@@ -75,12 +76,12 @@ class State(NamedTuple):
 
     @property
     def is_certain(self) -> bool:
-        """Whether it tells one version of the file from another."""
+        """Whether it differs for different versions of the file."""
         return bool(self.strong_etag or self.modified)
 
 
 def range_of(start: int, stop: int, known: State | None) -> dict[str, str]:
-    """Return the headers that ask for bytes, of the known version of the file."""
+    """Return the headers of a request for bytes, of the known version of the file if any."""
     headers = {"Range": f"bytes={start}-{stop - 1}"}
     if known is not None and known.strong_etag:
         headers["If-Match"] = known.strong_etag
@@ -90,8 +91,8 @@ def range_of(start: int, stop: int, known: State | None) -> dict[str, str]:
 def check_range(
     address: str, status: int, headers: Headers, start: int, stop: int, known: State | None
 ) -> tuple[State, int]:
-    """Return the state of the file and the number of bytes that follow, which are those that were
-    asked for, fewer only at the end of a file whose state is not yet known.
+    """Return the state of the file and the number of bytes that follow, after a check that they are
+    the requested ones; they may be fewer only at the end of a file whose state is not yet known.
     """
     if known is not None and status in (412, 416):
         raise changed(address)
@@ -122,8 +123,8 @@ def check_range(
 
 
 def check_whole(address: str, status: int, headers: Headers, most: int) -> int | None:
-    """Return the number of bytes of a whole file that follow, None if they come in chunks that tell
-    their end.
+    """Return the number of bytes of a whole file that follow; None if they come in chunks, whose
+    end is marked.
     """
     check_status(address, status, headers)
     if encoding_of(headers) not in ("", _GZIP):
@@ -141,7 +142,7 @@ def check_whole(address: str, status: int, headers: Headers, most: int) -> int |
 
 
 def encoding_of(headers: Headers) -> str:
-    """Return how an answer is compressed, empty if it is not."""
+    """Return the compression of an answer; empty if it has none."""
     encoding = headers.get("Content-Encoding", "").strip().lower()
     return {"identity": "", "x-gzip": _GZIP}.get(encoding, encoding)
 
@@ -175,7 +176,7 @@ def parsed(text: bytes) -> Document:
 
 
 def check_status(address: str, status: int, headers: Headers) -> None:
-    """Refuse answers that are none, and say what to do; `Unfinished` if asking again may help."""
+    """Refuse answers without a file, and say what to do; `Unfinished` if a new attempt may help."""
     host, place = host_of(address), shown(address)
     if status in _AGAIN:
         raise Unfinished(f"it answers with status {status}", _pause(headers.get("Retry-After", "")))
@@ -239,5 +240,5 @@ def _pause(text: str) -> float:
         return float(text)
     try:
         return max(email.utils.parsedate_to_datetime(text).timestamp() - time.time(), 0.0)
-    except (ValueError, TypeError, OverflowError):  # it is none
+    except (ValueError, TypeError, OverflowError):  # it is neither
         return 0.0

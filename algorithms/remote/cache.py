@@ -1,4 +1,4 @@
-"""Keeps the parts of remote point clouds that runs read, so that the next run finds them here."""
+"""Keeps parts of remote point clouds on this computer, so that the next run finds them here."""
 
 from __future__ import annotations
 
@@ -36,9 +36,9 @@ def _how_to_follow() -> str:
 
 
 class Here(NamedTuple):
-    """What is on this computer of some addresses."""
+    """The local files of some addresses."""
 
-    paths: dict[Path, str]  # of the point clouds, with their addresses as they are shown
+    paths: dict[Path, str]  # of the files, with the addresses of the point clouds as they are shown
     is_list: bool  # whether an address is that of a list of point clouds
 
 
@@ -56,8 +56,8 @@ def cache_of(folder: str | Path | None) -> Path:
 def bring_here(
     addresses: Sequence[str], wanted: Wanted, cache: Path, advice: str, progress: Progress
 ) -> Here:
-    """Return files with what is wanted of addresses, fetched unless the cache has them; `advice`
-    says what to do if that is too much.
+    """Return local files with the wanted parts of addresses, after a download of those that the
+    cache lacks; `advice` says what to do if it is too large.
     """
     with Transfers(progress, _how_to_follow()) as transfers:
         progress, clouds, is_list = transfers.progress, [], False
@@ -88,7 +88,7 @@ def bring_here(
 
 
 def _check_lengths(part: Part, crs: Crs) -> None:
-    """Refuse a cloud in which nothing can be measured, such as those of 3DEP, before a download."""
+    """Refuse, before the download, a cloud in a CRS with wrong lengths, such as those of 3DEP."""
     try:
         require_measurable(part.name, crs, part.box if part.area is None else part.area.bounds)
     except BareEarthError as error:
@@ -104,8 +104,8 @@ def bring_all(
     advice: str,
     progress: Progress,
 ) -> tuple[dict[str, Inputs], dict[Path, str]]:
-    """Return the files of inputs, by their names, of which some are addresses, and what
-    `addresses_named` needs.
+    """Return the files of inputs with some addresses, by the names of the inputs, and the mapping
+    for `addresses_named`.
     """
     inputs, found = {}, {}
     shares = progress.shares(*[1.0] * len(given))
@@ -122,7 +122,7 @@ def bring_all(
 
 @contextlib.contextmanager
 def addresses_named(found: Mapping[Path, str]) -> Iterator[None]:
-    """Let errors name addresses in place of files of the cache, and remove damaged ones."""
+    """Let errors name addresses in place of files in the cache, and remove damaged files."""
     try:
         yield
     except BareEarthError as error:
@@ -138,7 +138,7 @@ def addresses_named(found: Mapping[Path, str]) -> Iterator[None]:
 
 
 class Seen(NamedTuple):
-    """What is known of a remote point cloud before its points are fetched."""
+    """A remote point cloud as it is known before its points are downloaded."""
 
     address: str
     crs: Crs
@@ -146,15 +146,15 @@ class Seen(NamedTuple):
 
 
 def look(addresses: Sequence[str], cache: Path, progress: Progress = SILENT) -> list[Seen]:
-    """Return CRS and extent of the point clouds at addresses, all in the CRS of the first where a
-    list states the extent.
+    """Return CRS and extent of the point clouds at addresses; where a list states the extent, the
+    CRS is that of the first cloud.
     """
     found: list[Seen] = []
     with Transfers(progress, _how_to_follow()) as transfers:
         clouds = [
             cloud for address in map(checked, addresses) for cloud in clouds_of(address, transfers)
         ]
-        # No part of a cloud lies there, so that hardly more than its header is read.
+        # No points lie in this area, so that hardly more than the headers is read.
         nowhere = Wanted(Surroundings((0.0, 0.0, 1e-6, 1e-6)))
         for cloud in dict.fromkeys(clouds):
             if found and cloud.box is not None:
@@ -168,7 +168,7 @@ def look(addresses: Sequence[str], cache: Path, progress: Progress = SILENT) -> 
 
 
 def clear(cache: Path) -> int:
-    """Remove what is kept, nothing else, and return how many bytes that were."""
+    """Remove the files that are kept, but no others, and return their number of bytes."""
     if not cache.is_dir():
         return 0
     size = 0

@@ -1,7 +1,7 @@
-"""The part of a COPC file that an area and a resolution need, as a file of its own.
+"""The part of a COPC file that an area and a resolution need, as a new file.
 
-Compressed nodes are copied where all of their points are in the area. Only nodes at its border are
-compressed anew. All of them are decompressed and checked before they are kept.
+Nodes whose points are all in the area are copied as they are. Only nodes at its border are
+compressed anew. All nodes are decompressed and checked first.
 """
 
 from __future__ import annotations
@@ -48,12 +48,13 @@ from .files import RangeFile
 from .parts import Range
 
 SUFFIX = ".copc.laz"
-# Of the info record: position of the place of the first page, and of the GPS times.
+# Position of the offset of the first page, which the GPS times follow, in the info record.
 _ROOT = 40
-# Most bytes of a page that is asked for before it is known to be one, and of all pages.
+# Most bytes of the first page, which is requested before its size is checked, and of all pages.
 _LARGEST = 1 << 20
 _LARGEST_PAGES = 1 << 26
-# Most bytes of the points of a node, and those that it can have beyond twice these when compressed.
+# Most bytes of the points of a node, and bytes by which a compressed node may exceed twice those of
+# its points.
 _LARGEST_NODE = 1 << 28
 _LEAST = 1 << 12
 _PIECE = 1 << 23  # bytes that are copied at a time
@@ -63,7 +64,7 @@ EVERYWHERE = (-math.inf, -math.inf, math.inf, math.inf)
 
 
 class CopcPart:
-    """What an area and a resolution need of a COPC file: nodes, and the requests for them."""
+    """The part of a COPC file that an area and a resolution need: nodes, and requests for them."""
 
     is_exact, is_whole, missing_count = True, False, 0
 
@@ -93,7 +94,7 @@ class CopcPart:
         self.crs, self.box = read_crs(self.layout), self.layout.box
         self.area = area_of(area, Place(file.name, self.crs, self.box), progress)
         self._hierarchy = read_hierarchy(self.layout)
-        # The extent in the header may be wrong: only the cube of the octree counts.
+        # The extent in the header may be wrong, so only the cube of the octree is used.
         self.nodes = find_nodes(
             self._hierarchy,
             EVERYWHERE if self.area is None else self.area.bounds,
@@ -177,7 +178,7 @@ class CopcPart:
     def _write_chunks(
         self, file: BinaryIO, statistics: Statistics, progress: Progress
     ) -> np.ndarray:
-        """Write the nodes without points outside of the area; return their new entries."""
+        """Write the nodes, without points outside of the area; return their new entries."""
         layout, done = self.layout, 0
         laszip = next(vlr for vlr in layout.vlrs if vlr.key == LASZIP)
         chunks, written = ChunkFile(file, laszip.data), []
@@ -215,7 +216,7 @@ class CopcPart:
 
 
 def area_of(area: Area | None, place: Place, progress: Progress = SILENT) -> Area | None:
-    """Return an area in the CRS of the points, also if all of it is elsewhere."""
+    """Return an area in the CRS of the points, even if no point of the cloud is in it."""
     try:
         return None if area is None else area.located(place, progress)
     except Outside:

@@ -1,8 +1,8 @@
 """The part of an EPT data set that an area and a resolution need, as one file.
 
 Entwine Point Tiles are a folder of files: a description, the octree as JSON, and a small point
-cloud for each node. Nothing can be joined there: each tile is one request. A tile is a whole LAZ
-file, and its own header counts: some have other offsets than the description says.
+cloud for each node. Each tile needs a request. A tile is a whole LAZ file, and its own header is
+used, because some offsets differ from those in the description.
 
 References
 ----------
@@ -48,7 +48,8 @@ _ENDINGS = {"laszip": "laz", "binary": "bin", "zstandard": "zst"}
 Key = tuple[int, int, int, int]  # depth, x, y and z of a node
 _KEY = re.compile(r"(\d{1,2})-(\d{1,10})-(\d{1,10})-(\d{1,10})")
 _DEEPEST = 30
-# Most bytes of the description, of a file of the hierarchy and of a tile; six are read at a time.
+# Most bytes of the description, of a file of the hierarchy and of a tile, of which six are in
+# memory at a time.
 MOST_DESCRIPTION = 1 << 22
 _MOST_HIERARCHY = 1 << 24
 _MOST_TILE = 1 << 25
@@ -56,14 +57,12 @@ _MOST_TILE = 1 << 25
 _MOST_POINTS = 1 << 23
 _MOST_A_POINT = 200
 _MOST_TILES = 1_000_000
-# Points that are read at a time to check a tile.
-_PIECE = 100_000
-# Bytes that a compressed point usually has.
-_USUAL = 7
+_PIECE = 100_000  # points that are read at a time to check a tile
+_USUAL = 7  # usual number of bytes of a compressed point
 
 
 class EptPart:
-    """What an area and a resolution need of an EPT data set: tiles."""
+    """The part of an EPT data set that an area and a resolution need: tiles."""
 
     is_exact = is_whole = False
 
@@ -112,8 +111,8 @@ class EptPart:
         self.size = _USUAL * sum(self.tiles[key] for key in self._waiting)
 
     def _document(self, name: str, most: int) -> tuple[bytes, Document]:
-        """Return the text of a document and what it says; one that makes no sense is asked for once
-        more.
+        """Return the text and the content of a document; one that cannot be parsed is requested
+        once more.
         """
         with contextlib.suppress(ValueError):
             return self._parsed(name, most)
@@ -128,7 +127,7 @@ class EptPart:
             return text, parsed(text)
 
     def _read(self, about: Document) -> None:
-        """Read and check what is used of the description."""
+        """Read and check the values of the description that are used."""
         try:
             self._cube = tuple(map(float, about["bounds"]))
             self._span, self.kind = int(about["span"]), str(about["dataType"])
@@ -154,7 +153,7 @@ class EptPart:
         return west, south, east, north
 
     def _find_tiles(self, progress: Progress) -> dict[Key, int]:
-        """Return the points of the tiles that are needed, by their keys in order."""
+        """Return the numbers of points of the needed tiles, by their keys in ascending order."""
         found: dict[Key, int] = {}
         files: list[Key] = [(0, 0, 0, 0)]
         seen: set[Key] = set()
@@ -176,8 +175,8 @@ class EptPart:
         return {key: count for key, count in sorted(found.items()) if count}
 
     def _read_hierarchy(self, key: Key) -> dict[Key, int]:
-        """Return the needed nodes of a file of the hierarchy, -1 for those with a file of their
-        own.
+        """Return the numbers of points of the needed nodes in a file of the hierarchy; -1 for nodes
+        that another file describes.
         """
         name = f"ept-hierarchy/{_name(key)}.json"
         _, entries = self._document(name, _MOST_HIERARCHY)
@@ -188,7 +187,7 @@ class EptPart:
             counts = np.array([*entries.values()], dtype=np.int64)
         except (ValueError, TypeError, AttributeError, OverflowError) as error:
             raise self._no_ept(f"{name} cannot be read") from error
-        # The points of such a node would be nowhere.
+        # This file describes the node itself.
         if entries.get(_name(key), 0) < 0:
             raise self._no_ept(f"{name} names itself in place of a number of points")
         if (counts > _MOST_POINTS).any():
@@ -198,7 +197,7 @@ class EptPart:
         if (keys[:, 0] > _DEEPEST).any() or (keys[:, 1:] >= side[:, None]).any():
             raise self._no_ept(f"{name} names tiles outside of the cube")
         width = (self._cube[3] - self._cube[0]) / side
-        # As wide as a tile may be by rounding.
+        # Tiles may be a little wider by rounding.
         more = width * 1e-6 + 0.01
         west, south = (self._cube[axis] + keys[:, 1 + axis] * width for axis in (0, 1))
         needed = (west - more <= self._near[2]) & (west + width + more >= self._near[0])
@@ -210,8 +209,8 @@ class EptPart:
         }
 
     def fetch(self, progress: Progress) -> None:
-        """Get the tiles, each by one request; refuse missing ones, or count them if they may be
-        skipped.
+        """Download the tiles, each by one request; missing ones are an error, or are counted if
+        they may be skipped.
         """
 
         def get(key: Key) -> bool:
@@ -222,7 +221,7 @@ class EptPart:
                 return False
             try:
                 self._keep(key, data)
-            except BareEarthError:  # asked for once more
+            except BareEarthError:  # the tile is damaged, so it is requested once more
                 self._keep(key, self._tile(key) or b"")
             return True
 
@@ -239,7 +238,7 @@ class EptPart:
             )
 
     def _tile(self, key: Key) -> bytes | None:
-        """Return the bytes of a tile, None if it is missing and may be."""
+        """Return the bytes of a tile; None if it is missing and may be skipped."""
         most = min(self.tiles[key] * _MOST_A_POINT + (1 << 20), _MOST_TILE)
         try:
             return self._whole(f"ept-data/{_name(key)}.{_ENDINGS[self.kind]}", most)
@@ -268,7 +267,7 @@ class EptPart:
         return False
 
     def _check(self, key: Key) -> None:
-        """Read a tile; one that is damaged does not stay, so that it is asked for again."""
+        """Read a tile; remove a damaged one, so that it is requested again."""
         path = self._path(key)
         try:
             for _ in read_records(open_las(path), _PIECE):
@@ -300,7 +299,7 @@ class EptPart:
         return read_local(Path(place), most)
 
     def _path(self, key: Key) -> Path:
-        """Return where a tile is on this computer, once it was fetched."""
+        """Return the path of a tile on this computer, after its download."""
         if is_address(self._address):
             return self._parts.path_of(f"{_name(key)}.{'laz' if self.kind == 'laszip' else 'las'}")
         return Path(beside(self._address, f"ept-data/{_name(key)}.laz"))

@@ -1,4 +1,4 @@
-"""Fetches the parts of remote point clouds that an area needs, into files of this computer."""
+"""Downloads the parts of remote point clouds that an area needs, into files of this computer."""
 
 from __future__ import annotations
 
@@ -27,27 +27,27 @@ from .utm import STATED, Utm, states_height_unit, utm_of
 
 _GIGABYTE = 1e9
 _ADVICE = "Choose a smaller area or a coarser resolution"
-_UNSAFE = re.compile(r"[^\w.,+() -]")  # in names of files
+_UNSAFE = re.compile(r"[^\w.,+() -]")  # characters that are replaced in names of files
 
 
 @dataclass(frozen=True)
 class Wanted:
-    """What is wanted of a point cloud."""
+    """What a user wants of remote point clouds."""
 
     area: Area | None = None  # None for all of it
     resolution: float | None = None  # metres between points; None for all points
-    most: float = 2.0 * _GIGABYTE  # bytes
+    most: float = 2.0 * _GIGABYTE  # largest number of bytes to download
     skips_missing: bool = False  # whether tiles may be missing
-    follows: bool = False  # whether lists may name servers that the user did not
-    crs: Crs | None = None  # of the points, if the user states it
+    follows: bool = False  # whether lists may name servers that the user did not name
+    crs: Crs | None = None  # CRS of the points, if the user states it
     to_utm: bool = False  # whether points in Web Mercator are transformed
-    height_unit: str = STATED  # of such points, or one of `HEIGHT_UNITS`
-    is_measured: bool = False  # whether lengths in it must be those on the ground
+    height_unit: str = STATED  # unit of heights in Web Mercator, or one of `HEIGHT_UNITS`
+    is_measured: bool = False  # whether lengths in the CRS must be those on the ground
 
 
 @dataclass(frozen=True)
 class Fetched:
-    """What was downloaded."""
+    """The result of a download."""
 
     point_count: int
     file_count: int  # files that were written
@@ -65,32 +65,32 @@ class Fetched:
 
 
 class Part(Protocol):
-    """What an area and a resolution need of a point cloud."""
+    """The part of a point cloud that an area and a resolution need."""
 
     name: str
     box: Box  # of the whole cloud
     crs: Crs
     area: Area | None  # in the CRS of the points
     size: int  # bytes to download
-    is_exact: bool  # whether these are known, and not estimated
-    is_whole: bool  # whether they are all of a file of which no part can be found
+    is_exact: bool  # whether this number is known, and not estimated
+    is_whole: bool  # whether the part is a whole file, since no part of it can be read
     request_count: int
-    point_count: int  # with some that lie outside of the area
+    point_count: int  # including some outside of the area
     missing_count: int  # tiles that the server lacks
 
     def fetch(self, progress: Progress) -> None:
-        """Get all that is needed."""
+        """Download the part."""
 
     def write(self, target: Path, progress: Progress) -> int:
-        """Write a file, after all was fetched; return the number of points."""
+        """Write a file, after `fetch`; return the number of points."""
 
 
 def fetch(
     address: str, target: Path, wanted: Wanted, waiting: Path, progress: Progress = SILENT
 ) -> Fetched:
     """Write the points as a .laz or .copc.laz file, or as several in a folder if the target has no
-    such ending; what was downloaded waits in the folder `waiting`, where the next run goes on after
-    an error or a cancel.
+    such ending; downloads are kept in the folder `waiting` until then, so that the next run goes on
+    after an error or a cancel.
     """
     address = checked(address) if is_address(address) else address
     again = f"run it again with {option('follow', True)}"
@@ -130,7 +130,7 @@ def fetch(
 def _found(
     address: str, transfers: Transfers, waiting: Path, wanted: Wanted, progress: Progress
 ) -> list[Part]:
-    """Return what is needed of each point cloud that has points in the area."""
+    """Return the part of each point cloud that has points in the area."""
     clouds = near(clouds_of(address, transfers), wanted.area)
     shares = progress.shares(*[1.0] * len(clouds))
     parts = [
@@ -146,7 +146,7 @@ def _found(
 def _part(
     address: str, transfers: Transfers, waiting: Path, wanted: Wanted, progress: Progress
 ) -> Part:
-    """Return what is needed of a point cloud."""
+    """Return the part of a point cloud."""
     if name_of(address).lower() == DESCRIPTION:
         skips = wanted.skips_missing
         return EptPart(transfers, address, waiting, wanted.area, wanted.resolution, skips, progress)
@@ -244,7 +244,7 @@ def names_of(clouds: Iterable[str]) -> list[str]:
         number = 1
         for ending in (SUFFIX, ".laz", ".las"):
             stem = stem[: -len(ending)] if stem.lower().endswith(ending) else stem
-        # A list of somebody else must not say into which folder a file is written.
+        # A list of others must not decide in which folder a file is written.
         stem = _UNSAFE.sub("_", stem).strip(" .") or "points"
         while (new := f"{stem}{'' if number == 1 else f'-{number}'}{SUFFIX}") in names:
             number += 1
@@ -265,7 +265,7 @@ def nothing_there(parts: Sequence[Part], address: str) -> Outside:
 
 
 def _tell_of_rest(waiting: Path, progress: Progress) -> None:
-    """Tell where the next run goes on; remove what would not save a request."""
+    """Tell the user where downloads are kept for the next run; remove a folder without any."""
     size = _size_of_parts(waiting)
     if not size:
         remove_parts(waiting)
@@ -277,7 +277,7 @@ def _tell_of_rest(waiting: Path, progress: Progress) -> None:
 
 
 def _size_of_parts(waiting: Path) -> int:
-    """Return the bytes of what was downloaded before."""
+    """Return the number of bytes that were downloaded before."""
     return sum(path.stat().st_size for path in waiting.rglob("*-*") if path.is_file())
 
 

@@ -1,4 +1,4 @@
-"""A file on a server, or on this computer, of which only some ranges are read."""
+"""Files on servers, or on this computer, of which only some ranges are read."""
 
 from __future__ import annotations
 
@@ -17,17 +17,15 @@ from .transfers import Transfers
 
 _Result = TypeVar("_Result")
 
-# Where the user id of the first record stands behind the header of LAS 1.4.
-_COPC = slice(377, 381)
-# Bytes of the first request: enough for the header and most records.
-_FIRST = 1 << 16
-# Fewer bytes than these are not worth a request.
-_LEAST = 1 << 14
+_COPC = slice(377, 381)  # place of the user id of the first record of a LAS 1.4 file
+_FIRST = 1 << 16  # bytes of the first request, for the header and most records
+_LEAST = 1 << 14  # least bytes of other requests
 # Most bytes of a request of several pieces, of any request, and of a single read.
 _MOST = 1 << 23
 _LARGEST = 1 << 25
 _MOST_READ = 1 << 28
-# Most bytes of a gap, about what a request costs, and of all gaps as a share of what is wanted.
+# Pieces are joined across gaps, which are downloaded too: most bytes of a gap, about the cost of a
+# request, and of all gaps, as a share of the pieces.
 _WIDEST_GAP = 1 << 16
 _GAPS = 0.1
 
@@ -35,8 +33,8 @@ _GAPS = 0.1
 class Plan(NamedTuple):
     """The requests for some pieces of a file."""
 
-    requests: list[Range]  # without what is here already
-    size: int  # bytes of them
+    requests: list[Range]  # without ranges that are here already
+    size: int  # bytes of all requests
 
 
 class RangeFile(Protocol):
@@ -58,22 +56,22 @@ class RangeFile(Protocol):
         """Return the bytes from the position on."""
 
     def checked(self) -> None:
-        """Note that all that was read so far is sound."""
+        """Note that all bytes that were read so far are sound."""
 
     def twice(self, work: Callable[[], _Result]) -> _Result:
-        """Do work that reads and checks; if it fails, ask once more for what it read."""
+        """Do work that reads and checks; if it fails, request the bytes anew and repeat it once."""
 
 
 class RemoteFile(io.RawIOBase):
-    """A file on a server; what was not fetched before is asked for when it is read."""
+    """A file on a server; bytes that were not fetched before are requested when they are read."""
 
     def __init__(self, transfers: Transfers, address: str) -> None:
         super().__init__()
         self.address, self.name = address, name_of(address)
         self._transfers, self._position = transfers, 0
-        # What was read, but not yet found to be sound.
+        # Ranges that were read, but are not yet known to be sound.
         self._unchecked: list[Range] = []
-        # Asked for in any case, since it tells the version of the file.
+        # The first bytes are always requested, since the answer states the version of the file.
         self._head, self.version = self._first()
         self.size = self.version.size
 
@@ -81,7 +79,7 @@ class RemoteFile(io.RawIOBase):
         return self._transfers.one(lambda: self._transfers.read(self.address, 0, _FIRST, None))
 
     def keep_in(self, folder: Path) -> RemoteFile:
-        """Keep what is fetched in a folder, from which it is not fetched again."""
+        """Keep fetched bytes in a folder, so that they are not fetched again."""
         self._parts = Parts(folder, self.address)
         self._parts.begin(self.version._asdict(), self.version.is_certain)
         return self
@@ -110,11 +108,11 @@ class RemoteFile(io.RawIOBase):
         self._transfers.run(tasks, progress, plan.size)
 
     def checked(self) -> None:
-        """Note that all that was read so far is sound."""
+        """Note that all bytes that were read so far are sound."""
         self._unchecked.clear()
 
     def twice(self, work: Callable[[], _Result]) -> _Result:
-        """Do work that reads and checks; if it fails, ask once more for what it read."""
+        """Do work that reads and checks; if it fails, request the bytes anew and repeat it once."""
         self.checked()
         try:
             return work()
@@ -128,17 +126,17 @@ class RemoteFile(io.RawIOBase):
             raise
 
     def _dropped(self) -> bool:
-        """Drop what was read and not found to be sound, so that it is asked for once more; return
-        whether there was any.
+        """Drop the bytes that were read and are not known to be sound, so that they are requested
+        once more; return whether there were any.
         """
-        bad, self._unchecked = self._unchecked, []
-        for piece in bad:
+        doubtful, self._unchecked = self._unchecked, []
+        for piece in doubtful:
             self._parts.drop(*piece)
-        if any(start < len(self._head) for start, _ in bad):
+        if any(start < len(self._head) for start, _ in doubtful):
             self._head, version = self._first()
             if version != self.version:
                 raise changed(self.address)
-        return bool(bad)
+        return bool(doubtful)
 
     def readable(self) -> bool:
         """Return that it can be read."""
@@ -184,7 +182,7 @@ class RemoteFile(io.RawIOBase):
         try:
             data, _ = self._transfers.read(self.address, start, stop, self.version, self._parts.add)
         except BareEarthError:
-            self.checked()  # it is not what was read that is wrong
+            self.checked()  # the error is not in the bytes that were read
             raise
         self._parts.add(start, data)
 
@@ -193,7 +191,7 @@ class LocalFile(io.FileIO):
     """A file on this computer, from which nothing has to be fetched."""
 
     def __init__(self, path: Path) -> None:
-        open_source(path).close()  # which says what is wrong
+        open_source(path).close()  # raises an error that says what to do
         super().__init__(path, "rb")
         self.name, self.size = path.name, path.stat().st_size
 
@@ -205,7 +203,7 @@ class LocalFile(io.FileIO):
         """Get nothing."""
 
     def checked(self) -> None:
-        """Note nothing: what is wrong stays wrong."""
+        """Do nothing, because a second attempt would read the same bytes."""
 
     def twice(self, work: Callable[[], _Result]) -> _Result:
         """Do the work once."""

@@ -27,9 +27,9 @@ from .parts import remove_parts
 from .transfers import Transfers
 from .whole import WholePart
 
-# Of the names of folders; 16 of the 64 digits of a hash, since paths must be short for Windows.
+# Digits of a hash, of 64, in the names of folders: paths must be short for Windows.
 DIGITS = 16
-# Units in a metre of points whose CRS is not known: they may be feet.
+# Units in a metre for points whose CRS is not known: they may be feet.
 _UNITS_A_METRE = 3.3
 
 
@@ -40,7 +40,7 @@ class _Wider(Area):
 
 @dataclass(frozen=True, eq=False)
 class Surroundings(Area):
-    """The rectangle round an area, wider by a margin, whose points help to judge those inside."""
+    """The rectangle round an area with a margin, whose points help to classify those inside."""
 
     margin: float = 0.0  # metres
     crs: Crs | None = None  # of the points, if the user states it
@@ -61,8 +61,8 @@ class Surroundings(Area):
 
 
 class Kept:
-    """The place in the cache of what an area needs of a point cloud: in the folder of a version of
-    it, beside what was downloaded for any area.
+    """The file in the cache with the part of a point cloud that an area needs; in the folder of a
+    version of the cloud, which also holds downloads for other areas.
     """
 
     def __init__(self, cloud: Cloud, wanted: Wanted, cache: Path, transfers: Transfers) -> None:
@@ -71,7 +71,7 @@ class Kept:
         self.name, ending, part = name_of(cloud.address), SUFFIX, f"{area} {wanted.resolution}"
         self._file: RemoteFile | None = None
         self._is_certain = True
-        # One request, which tells the version.
+        # One request, whose answer states the version.
         if self.name.lower() == DESCRIPTION:
             text = transfers.whole(cloud.address, MOST_DESCRIPTION)
             version, ending = hashlib.sha256(text).hexdigest(), ".laz"
@@ -80,9 +80,9 @@ class Kept:
             self._file = RemoteFile(transfers, cloud.address)
             version, self._is_certain = str(self._file.version), self._file.version.is_certain
             if not self._file.is_copc:
-                # All of it serves any area.
+                # The whole file is kept, for any area.
                 part, ending = "all", ".las" if self.name.lower().endswith(".las") else ".laz"
-        # Signatures differ from run to run, and belong into no file.
+        # Addresses are kept without their signatures, which differ from run to run and are secret.
         folder = cache / _digest(shown(cloud.address)) / _digest(version)
         name = names_of([self.name])[0].replace(SUFFIX, ending)
         self.waiting, self.path = folder / "parts", folder / _digest(part) / name
@@ -104,7 +104,7 @@ class Kept:
         return False
 
     def part(self, progress: Progress) -> Part:
-        """Return what has to be fetched."""
+        """Return the part that has to be downloaded."""
         wanted = self._wanted
         if self._file is None:
             place = self._transfers, self.address, self.waiting
@@ -115,7 +115,7 @@ class Kept:
         return WholePart(file, wanted.area, progress)
 
     def bring(self, part: Part, progress: Progress) -> None:
-        """Fetch and write what was planned, unless another run has done it meanwhile."""
+        """Download and write a part, unless another run has done this meanwhile."""
         with one_at_a_time(self._lock, lambda: progress(0.0)):
             self.is_here = self._is_certain and self._is_sound()
             if not self.is_here:
@@ -125,11 +125,11 @@ class Kept:
             remove_parts(self.waiting)
 
     def _write(self, part: Part, progress: Progress) -> int:
-        """Write what was fetched, and return the number of points."""
+        """Write the file, and return the number of points."""
         with write_errors_told(self.path), temporary_folder(self.path.parent) as folder:
             new = folder / self.path.name
             count = part.write(new, progress)
-            # Another run may read an equal file, which must not change.
+            # An equal file is not replaced, because another run may read it.
             if count and not (self.path.is_file() and digest_of(new) == digest_of(self.path)):
                 with replacing(_digest_beside(self.path)) as temporary:
                     temporary.write_text(digest_of(new), encoding="ascii")
@@ -145,7 +145,7 @@ def is_sound(path: Path) -> bool:
 
 
 def digest_of(path: Path) -> str:
-    """Return what tells the contents of a file."""
+    """Return the SHA-256 digest of a file."""
     digest = hashlib.sha256()
     with open(path, "rb") as file:
         while data := file.read(1 << 20):
@@ -158,7 +158,7 @@ def _digest_beside(path: Path) -> Path:
 
 
 def _make_private(folder: Path, cache: Path) -> None:
-    """Make a folder in the cache that only its owner may read: what is in it may be secret."""
+    """Make a folder in the cache that only its owner may read, since its files may be secret."""
     with write_errors_told(folder):
         cache.parent.mkdir(parents=True, exist_ok=True)
         depth = len(folder.relative_to(cache).parts)

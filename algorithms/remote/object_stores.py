@@ -1,6 +1,7 @@
-"""Reads from stores of objects (s3, gs, az) by fsspec, if it is installed, as it is set up.
+"""Reads from object stores (s3, gs, az) by fsspec, if it is installed.
 
-Its `cat_file` gives a short answer without an error, so lengths and versions are checked here.
+`cat_file` of fsspec may return too few bytes without an error, so that lengths and versions are
+checked here.
 """
 
 from __future__ import annotations
@@ -37,7 +38,7 @@ class StoreReader:
             return store.cat_file(address, start=start, end=stop)
 
         data = self._ask(address, bytes_of)
-        # Stores tell no version with the bytes: the object is the same if it was before and after.
+        # Stores state no version with the bytes, so it must be the same before and after.
         if self._state(address) != before:
             raise changed(address)
         with self._lock:
@@ -58,10 +59,10 @@ class StoreReader:
         return address
 
     def close(self) -> None:
-        """End nothing: fsspec keeps its connections."""
+        """Do nothing, because fsspec keeps its connections."""
 
     def end_overdue(self) -> None:
-        """End nothing: fsspec has limits of its own."""
+        """Do nothing, because fsspec has limits of its own."""
 
     def _state(self, address: str) -> State:
         def info_of(store: AbstractFileSystem) -> dict[str, object]:

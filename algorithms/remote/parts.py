@@ -1,4 +1,4 @@
-"""Parts of a remote file that are kept on disk until the output is there."""
+"""Parts of a remote file that are kept on disk until the output is complete."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from ..core.temporary import is_temporary, remove
 from .addresses import shown
 
 _ABOUT = "about.json"
-# How often a file is written whose folder another run, which has all of the cloud, removes.
+# Attempts to write a file: another run that has all of the cloud may remove the folder meanwhile.
 _TRIES = 5
 _RANGE = re.compile(r"(\d+)-(\d+)")
 _TILE = re.compile(r"\d+-\d+-\d+-\d+\.\w+")
@@ -24,8 +24,8 @@ Range = tuple[int, int]  # first byte, and the one after the last
 
 
 class Parts:
-    """Ranges or tiles of one version of a remote point cloud, each a file in a folder, which stays
-    after an error or a cancel, so that the next run goes on.
+    """Ranges or tiles of one version of a remote point cloud, each a file in a folder; the folder
+    stays after an error or a cancel, so that the next run continues.
     """
 
     def __init__(self, folder: Path, address: str) -> None:
@@ -34,10 +34,10 @@ class Parts:
         self._lock = threading.Lock()
 
     def begin(self, version: Mapping[str, object], is_certain: bool) -> None:
-        """Keep what is there of this version of the cloud, if it is certain which one it is, and
-        remove what is not.
+        """Find the parts of this version of the cloud, and remove others; remove all if it is not
+        certain which version it is.
         """
-        # Signatures differ from run to run, and belong into no file.
+        # The address is kept without its signature, which differs from run to run and is secret.
         about = json.dumps({"address": shown(self._address), **version})
         with write_errors_told(self._folder):
             make_work_folder(self._folder)
@@ -56,7 +56,7 @@ class Parts:
                     self._know(int(found[1]), int(found[2]))
 
     def _paths(self) -> list[Path]:
-        """Return what is in the folder; nothing if another run has removed it."""
+        """Return the files in the folder; none if another run has removed it."""
         with contextlib.suppress(FileNotFoundError):
             return list(self._folder.iterdir())
         return []
@@ -86,24 +86,24 @@ class Parts:
                 start = end
 
     def missing(self, start: int, stop: int) -> list[Range]:
-        """Return what of a range is not here."""
+        """Return the pieces of a range that are not here."""
         return [piece for piece, part in self._pieces(start, stop) if part is None]
 
     def add(self, start: int, data: bytes) -> None:
-        """Keep bytes, in the place of fewer of them; the file gets its name when it is whole."""
+        """Keep bytes from `start` on, and remove parts within them."""
         stop = start + len(data)
         self.add_file(_name(start, stop), data)
         with self._lock:
-            fewer = [part for part in self._ranges if start <= part[0] and part[1] <= stop]
-        self._remove(part for part in fewer if part != (start, stop))
-        if (start, stop) not in fewer:
+            within = [part for part in self._ranges if start <= part[0] and part[1] <= stop]
+        self._remove(part for part in within if part != (start, stop))
+        if (start, stop) not in within:
             self._know(start, stop)
 
     def drop(self, start: int, stop: int) -> None:
-        """Remove what holds bytes of a range, which are damaged."""
+        """Remove the parts with bytes of a range, which are damaged."""
         with self._lock:
-            bad = [part for part in self._ranges if part[0] < stop and part[1] > start]
-        self._remove(bad)
+            damaged = [part for part in self._ranges if part[0] < stop and part[1] > start]
+        self._remove(damaged)
 
     def _remove(self, parts: Iterable[Range]) -> None:
         for part in parts:
@@ -112,7 +112,7 @@ class Parts:
             remove(self.path_of(_name(*part)))
 
     def add_file(self, name: str, data: bytes) -> None:
-        """Keep a whole file."""
+        """Keep a whole file, which gets its name when it is complete."""
         with write_errors_told(self._folder):
             for tries_left in reversed(range(_TRIES)):
                 make_work_folder(self._folder)
@@ -130,17 +130,17 @@ class Parts:
 
     def read(self, start: int, stop: int) -> bytes | None:
         """Return the bytes of a range; None if some are not here."""
-        found = bytearray()
+        data = bytearray()
         for (first, last), part in self._pieces(start, stop):
             if part is None:
                 return None
             with contextlib.suppress(OSError), open(self.path_of(_name(*part)), "rb") as file:
                 file.seek(first - part[0])
-                found += file.read(last - first)
-            if len(found) != last - start:  # somebody removed or changed it
+                data += file.read(last - first)
+            if len(data) != last - start:  # somebody has removed or changed the file
                 self.drop(*part)
                 return None
-        return bytes(found)
+        return bytes(data)
 
 
 def _name(start: int, stop: int) -> str:
@@ -160,7 +160,7 @@ def _is_ours(path: Path) -> bool:
 
 
 def remove_parts(folder: Path) -> None:
-    """Remove a folder of parts, or one that holds several, and leave what is not ours."""
+    """Remove a folder of parts, or of such folders, but no files of others in it."""
     if not folder.is_dir():
         return
     for path in folder.iterdir():

@@ -1,7 +1,7 @@
-"""Signs addresses of the Planetary Computer, whose containers of Azure want a token.
+"""Signs addresses of the Planetary Computer, whose containers in Azure need a token.
 
-The token is that of a whole container and is valid for less than an hour. It stays in the memory:
-files and messages have the address without it.
+A token is for a whole container and is valid for less than an hour. It stays in memory: files and
+messages contain the address without it.
 
 References
 ----------
@@ -26,8 +26,8 @@ _MOST_BYTES = 1 << 16
 
 
 class Signatures:
-    """The tokens of a run, got when a server refuses an address without a valid one, if the user
-    allows to ask for them.
+    """The tokens of a run, which are requested, if the user allows it, when a server refuses an
+    address without a valid one.
     """
 
     def __init__(self, read_whole: Callable[[str, int], bytes], is_allowed: bool) -> None:
@@ -43,11 +43,11 @@ class Signatures:
         return address if token is None else urlunsplit(urlsplit(address)._replace(query=token))
 
     def sign(self, address: str, refused: str, error: Missing | Expired) -> str:
-        """Return an address with another token than that with which it was refused; raise the error
-        if there is none.
+        """Return an address with a new token, after a server has refused it without one or with
+        another; raise the error if there is none.
         """
         container = _container_of(address)
-        # With a token, what does not exist is not there.
+        # If an address with a token is missing, the file does not exist.
         if container is None or (isinstance(error, Missing) and refused != address):
             raise error
         if not self._is_allowed:
@@ -55,7 +55,7 @@ class Signatures:
                 f"{error} If it belongs to the Planetary Computer,"
                 f" {option('follow', True, of='fetch')} gets a signature for it."
             )
-        # One thread asks, and the others use what it gets.
+        # One thread requests the token, and the others use it.
         with self._lock:
             if self.signed(address) in (address, refused) and container not in self._strange:
                 self._ask(container)

@@ -1,4 +1,4 @@
-"""Reads from servers in a few threads, again where an answer fails, while the caller can cancel."""
+"""Reads from servers in a few threads, with further attempts after errors, until cancelled."""
 
 from __future__ import annotations
 
@@ -20,38 +20,32 @@ from .signing import Signatures
 
 _Result = TypeVar("_Result")
 
-# Servers allow about six connections.
-_THREADS = 6
+_THREADS = 6  # most servers allow about six connections
 _ATTEMPTS = 6
-# Signatures that an address gets, at most: the first may have expired when it comes.
-_SIGNED = 2
-# Seconds before the second attempt, doubled before each further one, and the most that a server may
-# ask for.
+_SIGNED = 2  # most signatures for an address: the first may have expired when it is used
+# Seconds before the second attempt, doubled before each further one, and the longest pause that a
+# server may state.
 _FIRST_PAUSE = 0.25
 _LONGEST_PAUSE = 120.0
-# Seconds that failing attempts may take together, without the pauses that the server asks for, and
-# without the time in which what came would come at the least speed, in bytes a second.
+# Seconds that failed attempts may take together, beside the pauses that the server states and the
+# time for the received bytes at the least speed, in bytes a second.
 _LONGEST = 45.0
 _LEAST_SPEED = 10_000
-# Seconds without a byte after which the user is told what is waited for.
-_SILENCE = 5.0
-# Seconds after which the caller looks again whether the user has cancelled.
-_BEAT = 0.1
-# Seconds that the threads may take to end.
-_LONGEST_END = 1.0
-# Requests a second that hosts allow, by the ends of their names. IGN shuts out who asks for more.
+_SILENCE = 5.0  # seconds without a byte after which the user is told for which server we wait
+_BEAT = 0.1  # seconds after which the caller checks again whether the user has cancelled
+_LONGEST_END = 1.0  # seconds that the threads may take to end
+# Requests a second that hosts allow, by the ends of their names. IGN blocks users who make more.
 _LIMITS = {"geopf.fr": 9.0, "ign.fr": 9.0}
 
 
 class Reader(Protocol):
-    """Who makes single requests: here http.client or fsspec, in QGIS its network manager."""
+    """Makes single requests: here by http.client or fsspec, in QGIS by its network manager."""
 
-    # What it reads was checked as in `answers.py`. An answer that may be right at the next attempt
-    # is an `Unfinished`.
-    requests: int  # made so far
-    received: int  # bytes
-    notes: list[str]  # what the user should know, not yet told
-    # How the user allows that requests are passed on to other servers; None if that is allowed.
+    # It checks answers by `answers.py`, and raises `Unfinished` if another attempt may succeed.
+    requests: int  # number of requests so far
+    received: int  # bytes received so far
+    notes: list[str]  # warnings for the user that are not yet shown
+    # How the user can allow redirects to other servers; None if they are allowed.
     refusal: str | None
 
     def read(self, address: str, start: int, stop: int, known: State | None) -> tuple[bytes, State]:
@@ -71,7 +65,7 @@ class Reader(Protocol):
 
 
 class _Pace:
-    """Keeps requests of all threads to a host apart."""
+    """The least time between requests of all threads to a host."""
 
     def __init__(self) -> None:
         self._next: dict[str, float] = {}
@@ -89,9 +83,9 @@ class _Pace:
             return start - now
 
 
-# Of this process: two runs in QGIS share the limit of a host.
+# One for the process, so that two runs in QGIS share the limit of a host.
 _PACE = _Pace()
-# Makes what reads from the web. QGIS puts its own here.
+# Makes the reader for the web. The plugin puts that of QGIS here.
 _READERS: list[Callable[[], Reader]] = [HttpReader]
 
 
@@ -111,8 +105,8 @@ class _Latest(PassingOn):
 
 
 class Transfers:
-    """Requests of a run, which end with the block; with a `refusal`, which says how they may, lists
-    and redirects lead to no servers that the user did not name, and no signatures are asked for.
+    """The requests of a run, which end with the block; with a `refusal`, which says how the user
+    can allow it, other servers in lists and redirects are refused, and signatures not requested.
     """
 
     def __init__(self, progress: Progress, refusal: str | None = "give its address") -> None:
@@ -120,12 +114,12 @@ class Transfers:
         self._web, self._stores = _READERS[0](), StoreReader()
         self._web.refusal = refusal
         self._signatures = Signatures(self.read_whole, refusal is None)
-        self._asked = ""  # the server that was asked last
-        self._silent = {""}  # the servers of which the user knows
+        self._asked = ""  # the server of the last request
+        self._silent = {""}  # the silent servers of which the user was told
         self._heard = (0, 0.0)  # bytes so far, and when they grew
         self._stopped = threading.Event()
         self._threads: list[threading.Thread] = []
-        self.files = contextlib.ExitStack()  # which end with the block, too
+        self.files = contextlib.ExitStack()  # files that are closed when the block ends
 
     def __enter__(self) -> Transfers:
         return self
@@ -135,7 +129,7 @@ class Transfers:
         self.files.close()
         for reader in (self._web, self._stores):
             reader.close()
-        # So that no thread uses what a program ends meanwhile.
+        # Threads must not use anything that the program closes after this.
         end = time.monotonic() + _LONGEST_END
         for thread in self._threads:
             thread.join(max(end - time.monotonic(), 0.0))
@@ -158,8 +152,8 @@ class Transfers:
         known: State | None,
         keep: Callable[[int, bytes], object] = lambda start, data: None,
     ) -> tuple[bytes, State]:
-        """Return bytes of a file, of the known version of it, in as many attempts as it takes; what
-        came of an answer that was cut off, or cancelled, is given to `keep`.
+        """Return bytes of a file, of the known version of it, after further attempts if needed; the
+        bytes of an answer that was cut off or cancelled are given to `keep`.
         """
         reader, came = self._reader(address), bytearray()
 
@@ -191,7 +185,7 @@ class Transfers:
         """Do tasks, which call `read`, in threads, and return their results in order; the progress
         tells the share of `size` bytes.
         """
-        # Not `core.threads`: these threads wait, and a cancel must not wait for them.
+        # `core.threads` is not used: these threads wait, and a cancel must not wait for them.
         results: dict[int, _Result] = {}
         waiting = iter(enumerate(tasks))
         done: queue.Queue[tuple[int, _Result | None, BaseException | None]] = queue.Queue()
@@ -206,7 +200,7 @@ class Transfers:
                     return
                 try:
                     done.put((number, task(), None))
-                except BaseException as error:  # told in the thread of the caller
+                except BaseException as error:  # raised in the thread of the caller
                     done.put((number, None, error))
 
         for _ in range(min(_THREADS, len(tasks))):
@@ -231,7 +225,7 @@ class Transfers:
         return self.one(lambda: self.read_whole(address, most))
 
     def _watch(self) -> None:
-        """End what takes too long, and tell the user once for each server that is silent."""
+        """End connections that take too long, and tell the user once of each silent server."""
         self._web.end_overdue()
         if self.received != self._heard[0]:
             self._heard = self.received, time.monotonic()
@@ -246,7 +240,7 @@ class Transfers:
         return self.run([task])[0]
 
     def _tell(self, progress: Progress | None, share: float) -> None:
-        """Tell what is done, which also notices a cancel, and what the user should know."""
+        """Report progress, which raises an error after a cancel, and show the warnings."""
         for source in (self._web, self._stores, self._signatures):
             while source.notes:
                 self.progress.warning(source.notes.pop(0))

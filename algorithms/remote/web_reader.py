@@ -1,5 +1,6 @@
-"""Reads whole files and parts of them from web servers; who makes the single requests derives from
-it: http.client here, in QGIS its network manager.
+"""Reads whole files and parts of files from web servers.
+
+A derived class makes the single requests: here by http.client, in QGIS by its network manager.
 """
 
 from __future__ import annotations
@@ -24,23 +25,23 @@ from .answers import (
 
 _MOST_REDIRECTS = 5
 
-# Refuses an answer by its status and headers, or returns the number of bytes that follow, None if
-# it is not stated.
+# Raises an error for an answer with a wrong status or headers, or returns the number of bytes that
+# follow, None if it is not stated.
 Check = Callable[[int, Headers], Optional[int]]
 
 
 class WebReader:
     """Base of what reads from web servers; several threads can use it at the same time."""
 
-    # Seconds that an answer may take, beside those of its bytes at the least speed.
+    # Seconds that an answer may take, beside the time for its bytes at the least speed.
     patience = 30.0
     least_speed = 10_000.0  # bytes a second
 
     def __init__(self) -> None:
-        self.requests = self.received = 0  # and bytes of answers
-        self.notes: list[str] = []  # what the user should know, not yet told
+        self.requests = self.received = 0  # number of requests, and bytes of answers
+        self.notes: list[str] = []  # warnings for the user that are not yet shown
         self.refusal: str | None = None
-        self._moved: dict[str, str] = {}  # where redirects led, by address
+        self._moved: dict[str, str] = {}  # the targets of redirects, by address
         self._lock, self._closed = threading.Lock(), False
 
     def read(self, address: str, start: int, stop: int, known: State | None) -> tuple[bytes, State]:
@@ -97,7 +98,7 @@ class WebReader:
 
         def check_place(status: int, headers: Headers) -> int | None:
             if status in (401, 403, 404) and place != address:
-                # The address to which it led was valid for some time only.
+                # The target of the redirect was valid for some time only.
                 self._moved.pop(address, None)
                 raise Unfinished(f"it answers with status {status}")
             return check(status, headers)
