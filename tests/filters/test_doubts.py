@@ -34,14 +34,14 @@ def warnings_of(cloud, parameters):
 
 
 @pytest.mark.parametrize("method", METHODS.values(), ids=METHODS)
-def test_a_wide_and_clean_survey_is_not_doubted(method, las):
-    assert warnings_of(land(150, 150, outliers=0.001), method.parameters(), las) == []
+def test_a_wide_and_clean_survey_is_not_doubted(method):
+    assert warnings_of(land(150, 150, outliers=0.001), method.parameters()) == []
 
 
 @pytest.mark.parametrize("name", quick(METHODS, "slope"))
-def test_an_extent_smaller_than_the_largest_object_is_told(name, las):
+def test_an_extent_smaller_than_the_largest_object_is_told(name):
     method = METHODS[name]
-    (warning,) = warnings_of(land(150, 30), method.parameters(), las)
+    (warning,) = warnings_of(land(150, 30), method.parameters())
     assert EXTENT in warning
     labels = {declared.name: declared.label for declared in method.parameters.declarations()}
     assert labels[method.size_parameter] in warning
@@ -57,10 +57,10 @@ def test_an_extent_smaller_than_the_largest_object_is_told(name, las):
         ("slope", {"preset": "whitebox"}, 4),
     ],
 )
-def test_the_size_is_what_was_given(name, values, width, las):
+def test_the_size_is_what_was_given(name, values, width):
     parameters = METHODS[name].parameters(**values)
     assert METHODS[name].largest_object(parameters) == width
-    told = [EXTENT in "".join(warnings_of(land(140, side), parameters, las)) for side in (3, 135)]
+    told = [EXTENT in "".join(warnings_of(land(140, side), parameters)) for side in (3, 135)]
     assert told == [True, False]
 
 
@@ -75,18 +75,18 @@ def test_the_same_warning_of_several_blocks_is_told_once():
     assert EXTENT in warning and "blocks" not in warning
 
 
-def test_hardly_any_ground_is_told(las):
+def test_hardly_any_ground_is_told():
     # Crowns all over: of the points of a wide disc only the lowest stands above no other.
     crowns = land(100, 100)
     crowns.z[:] = np.random.default_rng(1).uniform(0, 2000, crowns.count)
     values = {"search_radius": 8.0, "slope_threshold": 0.0, "height_threshold": 0.01}
     strict = METHODS["slope"].parameters(preset="whitebox", slope_norm=False, **values)
-    (warning,) = warnings_of(crowns, strict, las)
+    (warning,) = warnings_of(crowns, strict)
     assert LITTLE in warning and "2 %" in warning
 
 
 @pytest.mark.parametrize("name", quick(METHODS, "grid-minimum"))
-def test_many_low_outliers_are_told(name, las):
+def test_many_low_outliers_are_told(name):
     parameters = METHODS[name].parameters()
-    (warning,) = warnings_of(land(150, 150, outliers=0.04), parameters, las)
+    (warning,) = warnings_of(land(150, 150, outliers=0.04), parameters)
     assert OUTLIERS in warning and "class 7" in warning
