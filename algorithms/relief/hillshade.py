@@ -17,8 +17,8 @@ CellSize = Union[float, tuple[float, float]]
 def hillshade(
     heights: np.ndarray, cell_size: CellSize, azimuth: float = 315.0, altitude: float = 45.0
 ) -> np.ndarray:
-    """Return how brightly a surface in metres, rows from north, is lit, uint8, 1 (dark) to 255, 0
-    for NaN; azimuth is clockwise from north, altitude above the horizon.
+    """Return the hillshade of a surface in metres, rows from north: uint8, 1 (dark) to 255, 0 for
+    NaN; azimuth is clockwise from north, altitude above the horizon.
     """
     # Horn, B. K. P. (1981): Hill shading and the reflectance map. Proceedings of the IEEE 69.
     dx, dy = _gradient(heights, cell_size)
@@ -28,11 +28,11 @@ def hillshade(
 def multidirectional_hillshade(
     heights: np.ndarray, cell_size: CellSize, altitude: float = 45.0
 ) -> np.ndarray:
-    """Return how brightly a surface is lit from the southwest, west, northwest and north at once,
-    as `hillshade` does for one light.
+    """Return the hillshade of a surface with lights in the southwest, west, northwest and north, as
+    `hillshade` for one light.
     """
-    # Each light counts most on slopes that face it or turn away from it, so that ridges and valleys
-    # of any direction stand out.
+    # Each light has most weight on slopes that face it or turn away from it, so that ridges and
+    # valleys of any direction stand out.
     # Mark, R. K. (1992): A multidirectional, oblique-weighted, shaded-relief image of the Island of
     # Hawaii. U.S. Geological Survey Open-File Report 92-422. The four lights are his. He weights
     # them by the squared sine of the angle between light and aspect, with the aspect of a smoothed
@@ -50,8 +50,8 @@ def multidirectional_hillshade(
 
 
 def slope(heights: np.ndarray, cell_size: CellSize) -> np.ndarray:
-    """Return how steep a surface is, float32, 0 (level) to 90 degrees, NaN where there is no
-    height, as ``gdaldem slope`` does.
+    """Return the slope of a surface as ``gdaldem slope`` does: float32, 0 (level) to 90 degrees,
+    NaN without a height.
     """
     return np.degrees(np.arctan(np.hypot(*_gradient(heights, cell_size)))).astype(np.float32)
 
@@ -64,9 +64,9 @@ def brightness(
 
 
 def _lit(dx: np.ndarray, dy: np.ndarray, azimuth: float, altitude: float) -> np.ndarray:
-    """Return how brightly slopes are lit by one light, 0 to 1."""
+    """Return the brightness of slopes in one light, 0 to 1."""
     azimuth, altitude = np.radians(azimuth), np.radians(altitude)
-    # The light's direction times the surface's normal, without the angles in between.
+    # The product of the direction of the light and the normal of the surface, without angles.
     lit = np.sin(altitude) - np.cos(altitude) * (dx * np.sin(azimuth) + dy * np.cos(azimuth))
     return np.clip(lit / np.sqrt(1.0 + dx**2 + dy**2), 0.0, 1.0)
 

@@ -1,6 +1,7 @@
-"""What the surroundings of a place hide of its sky, and how much it looks down on them.
+"""Sky-view factor, openness and local dominance.
 
-The sky-view factor, the openness and the local dominance.
+These are measures of how much of the sky the land round a place hides, and of how steeply one looks
+down on it.
 
 References
 ----------
@@ -28,22 +29,23 @@ from .local_relief import TRUNCATE, trend_slopes
 # Sides of a cell in metres: along a row, and along a column.
 Cells = tuple[float, float]
 
+# Horizon: number of directions; distance in cells of the places along a direction; and, for places
+# farther away than this number of cells, their distance as a share of that from the centre.
 _DIRECTIONS = 16
-_STEP = 1 / 3  # cells between places along a direction
-_EVERY = 64.0  # cells: farther places are apart by a share of their distance
-_FARTHER = 1 / 96  # this share
-_EYES = 1.7  # metres: height of the eyes above the terrain
-_VIEWS = 24  # directions in which they look
-# Distances between the two radii at which an observer looks, fewer if they lie less than one cell
-# apart.
+_STEP = 1 / 3
+_EVERY = 64.0
+_FARTHER = 1 / 96
+# Local dominance: height of the eyes in metres, number of directions, and number of distances in a
+# direction, which is smaller if these would be less than a cell apart.
+_EYES = 1.7
+_VIEWS = 24
 _DISTANCES = 10
-_ROUNDING = 1e-6  # share of a step, so that rounding leaves out no distance
-# Cells that are worked on together: they stay in the cache of a processor.
-PIECE = 40_000
+_ROUNDING = 1e-6  # share of a step, so that rounding omits no distance
+PIECE = 40_000  # cells of a piece, so few that they stay in the processor's cache
 
 
 class Neighbour(NamedTuple):
-    """Where a neighbour lies, in rows and columns, and how far away, in metres."""
+    """The offset of a neighbour in rows and columns, and its distance in metres."""
 
     row: int
     column: int
@@ -51,12 +53,12 @@ class Neighbour(NamedTuple):
 
 
 class Surroundings:
-    """Heights in metres (NaN for none) and what lies up to `reach` rows and columns round each
+    """Heights in metres (NaN for none), with neighbours up to `reach` rows and columns from each
     cell, also beyond the border of the data.
     """
 
-    # There the land goes on as the plane that fits the surroundings of a cell best. If such places
-    # were left out, directions would end one after the other towards a border, in visible steps.
+    # Beyond the border, heights are those of the plane that fits the surroundings of a cell best.
+    # Without them, the number of neighbours would change towards a border in visible steps.
 
     def __init__(self, heights: np.ndarray, reach: tuple[int, int]) -> None:
         (rows, columns), (down, right) = heights.shape, reach
@@ -98,7 +100,7 @@ class Piece:
         return self._wide[row : row + rows, column : column + columns]
 
     def heights_of(self, neighbour: Neighbour) -> np.ndarray:
-        """Return the heights of a neighbour of each cell; beyond the border those of a plane."""
+        """Return the heights of one neighbour of each cell; beyond the border those of planes."""
         there = self._shifted(neighbour.row, neighbour.column)
         if self._planes is None:
             return there
@@ -112,7 +114,7 @@ class Piece:
 
     @cached_property
     def _planes(self) -> list[np.ndarray] | None:
-        """Heights of the planes, and their rises to the next row and to the next column, None if
+        """Heights of the planes at each cell, and their rises to the next row and column; None if
         all neighbours have a height.
         """
         if np.isfinite(self._wide).all():
@@ -126,7 +128,7 @@ class Piece:
 
 
 def horizon_reach(radius: float, cells: Cells) -> tuple[int, int]:
-    """Return up to how many rows and columns away cells matter to the horizon."""
+    """Return the distance in rows and columns up to which cells affect the horizon."""
     farthest = _farthest(radius, cells)
     return math.ceil(farthest / cells[1]), math.ceil(farthest / cells[0])
 
@@ -137,11 +139,11 @@ def _farthest(radius: float, cells: Cells) -> float:
 
 
 def sky_view(heights: np.ndarray, cells: Cells, radius: float) -> np.ndarray:
-    """Return the sky-view factor: the share of the sky that can be seen, as a mean of directions,
-    float32, 1 on level land and on summits; NaN where there is no height.
+    """Return the sky-view factor, the visible share of the sky as a mean of directions: float32, 1
+    on level land and on summits, NaN without a height.
     """
-    # Up to `radius` metres, at least one cell, the terrain can hide the sky. Beyond the border of
-    # the data the land goes on as a plane. A cell depends on others up to `horizon_reach`.
+    # Terrain up to `radius` metres away, at least one cell, can hide the sky. Beyond the border of
+    # the data, the land continues as a plane. A cell depends on others up to `horizon_reach`.
     return _means(heights, cells, (0.0, radius), _sky)[0]
 
 
@@ -159,7 +161,7 @@ def openness(heights: np.ndarray, cells: Cells, radius: float) -> np.ndarray:
 def sky_view_and_openness(
     heights: np.ndarray, cells: Cells, radii: tuple[float, float]
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Return both in one pass; terrain nearer than the first of two radii hides nothing."""
+    """Return both measures; terrain nearer than the first of two radii hides nothing."""
     sky, zenith = _means(heights, cells, radii, _sky, _zenith)
     return sky, zenith
 
@@ -211,7 +213,7 @@ def _horizon(piece: Piece, line: list[Neighbour]) -> np.ndarray:
 
 
 def _lines(cells: Cells, radii: tuple[float, float]) -> Iterator[list[Neighbour]]:
-    """Yield the neighbours in each direction, from one radius to another, without doubles."""
+    """Yield the neighbours in each direction, from one radius to another, each once."""
     least = min(cells)
     nearest, farthest = max(radii[0] / least, 1.0), _farthest(radii[1], cells) / least
     along = [nearest]
@@ -228,17 +230,17 @@ def _lines(cells: Cells, radii: tuple[float, float]) -> Iterator[list[Neighbour]
 
 
 def dominance_reach(radius: float, cells: Cells) -> tuple[int, int]:
-    """Return up to how many rows and columns away cells matter to the local dominance."""
+    """Return the distance in rows and columns up to which cells affect the dominance."""
     farthest = 2.0 * max(radius, max(cells))
     return math.ceil(farthest / cells[1]), math.ceil(farthest / cells[0])
 
 
 def local_dominance(heights: np.ndarray, cells: Cells, radius: float) -> np.ndarray:
-    """Return how steeply an observer looks down on the land around, in relation to level land,
-    float32, 1 there, more on rises, less in hollows; NaN where there is no height.
+    """Return the local dominance, how steeply an observer looks down on the land around: float32, 1
+    on level land, more on rises, less in hollows, NaN without a height.
     """
-    # The observer looks at what lies from `radius` metres, at least one cell, up to twice as far.
-    # Beyond the border of the data the land goes on as a plane. A cell depends on others up to
+    # The observer looks at land from `radius` metres, at least one cell, up to twice as far away.
+    # Beyond the border of the data, the land continues as a plane. A cell depends on others up to
     # `dominance_reach`.
     around = Surroundings(heights, dominance_reach(radius, cells))
     seen = list(_seen(radius, cells))
@@ -260,7 +262,8 @@ def local_dominance(heights: np.ndarray, cells: Cells, radius: float) -> np.ndar
 
 
 def _seen(radius: float, cells: Cells) -> Iterator[tuple[Neighbour, float]]:
-    """Yield places that the observer sees, and weights: the angle of a metre times the area."""
+    """Yield the places at which the observer looks, with their weights."""
+    # The weight is the angle at which a metre is seen, times the area of the place.
     least = min(cells)
     radius = max(radius, max(cells))
     step = max(radius / _DISTANCES, least)

@@ -1,8 +1,8 @@
-"""The trend of a terrain, and its local relief above that, which shows small features.
+"""The trend of a terrain, and its local relief: the heights above the trend.
 
-Burial mounds, old paths, ditches and field banks of some decimetres cannot be seen in a terrain
-model with a range of some hundred metres. They stand out when the trend of the land is removed: the
-first step of Hesse (2010), LiDAR-derived Local Relief Models, Archaeological Prospection 17, 67-72.
+Burial mounds, old paths, ditches and field banks of some decimetres are invisible in a terrain
+model with a range of some hundred metres, but not in its local relief. This is the first step of
+Hesse (2010), LiDAR-derived Local Relief Models, Archaeological Prospection 17, 67-72.
 """
 
 from __future__ import annotations
@@ -13,31 +13,27 @@ import numpy as np
 
 from ..grids.planes import means_and_moments, plane_slopes
 
-# Standard deviations beyond which cells have no weight.
-TRUNCATE = 3.0
-# Cells along a side of the pieces in which edges are worked on.
-_PIECE = 256
-# Surroundings are complete if no more than this share of their weight is missing.
-_COMPLETE = 1e-6
-# The scales of the multi-scale relief, in radii.
-_SCALES = (0.5, 1.0, 2.0, 4.0)
+TRUNCATE = 3.0  # distance in standard deviations beyond which cells have no weight
+_PIECE = 256  # side in cells of the pieces in which planes are fitted
+_COMPLETE = 1e-6  # largest share of the weight that may be missing in complete surroundings
+_SCALES = (0.5, 1.0, 2.0, 4.0)  # scales of the multi-scale relief in radii
 
 # Standard deviations in cells, along a column and along a row.
 Sigma = tuple[float, float]
 
 
 def reach_of(sigma: float) -> int:
-    """Return how many cells away a cell still matters, given the standard deviation in cells."""
+    """Return the distance in cells up to which cells have weight, given the standard deviation."""
     return int(TRUNCATE * sigma + 0.5)
 
 
 def local_trend(heights: np.ndarray, sigma: Sigma) -> np.ndarray:
-    """Return at each cell the height of the plane that fits its surroundings best, float64, NaN
-    where the heights are.
+    """Return at each cell the height of the plane that fits its surroundings best, float64; NaN
+    without a height.
     """
-    # The weights of the surroundings are a normal distribution.
-    # Where they are complete this is their weighted mean. At an edge it differs, since the
-    # surroundings lie on one side. A value depends only on cells up to `reach_of(sigma)`.
+    # The weights of the surroundings are a normal distribution. If the surroundings are complete,
+    # the height of the plane is their weighted mean. A value depends only on cells up to
+    # `reach_of(sigma)`.
     known = np.isfinite(heights)
     if not known.any():
         return np.full(heights.shape, np.nan)
@@ -48,7 +44,7 @@ def local_trend(heights: np.ndarray, sigma: Sigma) -> np.ndarray:
     else:
         weight = smooth(weights, 0, 0)
     lacks = known & (weight < 1.0 - _COMPLETE)
-    # Elsewhere the sum is the mean, whatever the rounding of the weights.
+    # In all other cells the sum is the mean.
     trend = smooth(filled, 0, 0)
     trend[~known] = np.nan
     reach = [reach_of(deviation) for deviation in sigma]
@@ -67,11 +63,11 @@ def local_trend(heights: np.ndarray, sigma: Sigma) -> np.ndarray:
 
 
 def trend_slopes(heights: np.ndarray, sigma: Sigma) -> tuple[np.ndarray, np.ndarray]:
-    """Return how the plane of `local_trend` rises from a cell to the next, along a column and along
-    a row, also where there is no height; there must be one.
+    """Return the rise of the plane of `local_trend` from a cell to the next, along a column and
+    along a row, also for cells without a height; some cell must have one.
     """
     known = np.isfinite(heights)
-    # Less the mean, so that rounding does not matter.
+    # The mean is subtracted to keep the error of rounding small.
     filled = np.where(known, heights - np.mean(heights[known]), 0.0).astype(np.float64)
     _, along_column, along_row = _fitted(filled, known.astype(np.float64), _weighted(sigma))
     return along_column, along_row
@@ -113,7 +109,7 @@ def _fitted(
     squares = [summed(weights, *powers) for powers in ((2, 0), (1, 1), (0, 2))]
     total = np.where(total > 0, total, 1.0)
     r, c, z, rr, rc, cc, rz, cz = means_and_moments(total, *sums, heights, *squares, *along)
-    # A little is added to the variances: a line of cells, or a single one, has no slope across it.
+    # A little is added to the variances, because a line of cells has no slope across it.
     least = 1e-9 * (squares[0] + squares[2]) / total + 1e-9
     slope_r, slope_c = plane_slopes(rr + least, rc, cc + least, rz, cz)
     return z - slope_r * r - slope_c * c, slope_r, slope_c
@@ -122,35 +118,34 @@ def _fitted(
 def local_relief(
     heights: np.ndarray, cell_metres: tuple[float, float], radius: float
 ) -> np.ndarray:
-    """Return the height of a surface, in its unit as float32, above the mean of its surroundings of
-    a radius in metres; NaN where the surface is.
+    """Return the height of a surface above the trend of its surroundings, in its unit as float32,
+    given a radius in metres; NaN without a height.
     """
-    # The mean is weighted by a normal distribution whose standard deviation is half the radius. A
-    # cell depends on others up to `relief_reach`.
+    # The standard deviation of the weights is half the radius. A cell depends on others up to
+    # `relief_reach`.
     sigma = radius / 2 / cell_metres[1], radius / 2 / cell_metres[0]
-    # At an edge the trend is that of a plane, because otherwise a slope would be visible there.
     return (heights - local_trend(heights, sigma)).astype(np.float32)
 
 
 def relief_reach(cell_metres: tuple[float, float], radius: float) -> int:
-    """Return how many cells away a cell still matters to the local relief."""
+    """Return the distance in cells up to which cells affect the local relief."""
     return reach_of(radius / 2 / min(cell_metres))
 
 
 def multi_scale_relief(
     heights: np.ndarray, cell_metres: tuple[float, float], radius: float
 ) -> np.ndarray:
-    """Return the mean of local reliefs with half of a radius, the radius, twice and four times it,
-    so that what is narrow and what is wide are visible in one picture.
+    """Return the mean of local reliefs with a half, one, two and four times a radius in metres,
+    which shows narrow and wide features in one picture.
     """
     # A cell depends on others up to `multi_scale_reach`. The idea is that of Orengo and Petrie
-    # (2018), Multi-scale relief model, Earth Surface Processes and Landforms 43, 1361-1369. There,
-    # the differences between successive means are summed, which is the difference between the first
-    # and the last.
+    # (2018), Multi-scale relief model, Earth Surface Processes and Landforms 43, 1361-1369. They
+    # sum up the differences between successive means, which is the difference between the first and
+    # the last one.
     reliefs = [local_relief(heights, cell_metres, scale * radius) for scale in _SCALES]
     return sum(reliefs[1:], reliefs[0]) / np.float32(len(_SCALES))
 
 
 def multi_scale_reach(cell_metres: tuple[float, float], radius: float) -> int:
-    """Return how many cells away a cell still matters to the multi-scale relief."""
+    """Return the distance in cells up to which cells affect the multi-scale relief."""
     return relief_reach(cell_metres, max(_SCALES) * radius)

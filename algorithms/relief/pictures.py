@@ -1,4 +1,4 @@
-"""Pictures of the relief that several measures make together.
+"""Pictures of the relief that combine several measures.
 
 References
 ----------
@@ -21,23 +21,22 @@ from .horizons import Cells, openness, sky_view_and_openness
 
 
 class _Land(NamedTuple):
-    """The ranges that VAT shows, black to white, for a kind of land."""
+    """The values that are black and white in VAT, for a kind of land."""
 
     sky: tuple[float, float]  # sky-view factors
-    open: tuple[float, float]  # degrees
-    steep: tuple[float, float]  # degrees
-    altitude: float  # of the light above the horizon, in degrees
-    radii: tuple[float, float]  # where terrain can hide the sky, from and to, in radii
+    open: tuple[float, float]  # openness in degrees
+    steep: tuple[float, float]  # slopes in degrees
+    altitude: float  # angle of the light above the horizon in degrees
+    radii: tuple[float, float]  # distances between which terrain can hide the sky, in radii
 
 
 # The values of Kokalj and Somrak, as in their Relief Visualization Toolbox.
 _HILLY = _Land((0.7, 1.0), (68.0, 93.0), (50.0, 0.0), 35.0, (0.0, 1.0))
 _LEVEL = _Land((0.9, 1.0), (85.0, 93.0), (15.0, 0.0), 15.0, (0.8, 2.0))
 _AZIMUTH = 315.0
-# How many radii away cells still matter to VAT.
-VAT_RADII = _LEVEL.radii[1]
-_REDDEST = 45.0  # degrees: slope that is as red as can be
-# Degrees: differences of openness that are black and white. Level land is brighter than the middle.
+VAT_RADII = _LEVEL.radii[1]  # distance in radii up to which cells affect VAT
+_REDDEST = 45.0  # slope in degrees from which on red is full
+# Differences of openness in degrees that are black and white: level land is rather bright.
 _DARKEST = -10.0
 _BRIGHTEST = 4.0
 
@@ -46,9 +45,9 @@ def archaeological_topography(heights: np.ndarray, cells: Cells, radius: float) 
     """Return the visualization for archaeological topography (VAT), for hilly and level land,
     uint8, 1 (black) to 255 (white), 0 where there is no height.
     """
-    # A hillshade, blended with slope, openness and sky-view factor, so that a feature is visible
-    # whatever its direction. It is the mean of two such pictures: one for hilly land, where terrain
-    # up to `radius` metres away can hide the sky, and one for level land, which shows what is low,
+    # A hillshade is blended with slope, openness and sky-view factor, so that features of any
+    # direction are visible. The result is the mean of two such pictures: one for hilly land, where
+    # terrain up to `radius` metres away can hide the sky, and one for low features of level land,
     # with twice the radius.
     heights = heights.astype(np.float32)
     steep = slope(heights, cells)
@@ -63,13 +62,13 @@ def _blended(
     near, far = (share * radius for share in land.radii)
     sky, zenith = sky_view_and_openness(heights, cells, (near, far))
     shade = brightness(heights, cells, _AZIMUTH, land.altitude)
-    # From the bottom to the top: as brightness, by half.
+    # Layers from the bottom to the top. Slope: "brightness", by half.
     picture = (shade + _stretched(steep, land.steep)) / 2
-    # "Overlay", by half.
+    # Openness: "overlay", by half.
     zenith = _stretched(zenith, land.open)
     dark, bright = 2 * picture * zenith, 1 - 2 * (1 - picture) * (1 - zenith)
     picture = (picture + np.where(picture > 0.5, bright, dark)) / 2
-    # "Multiply", by a quarter.
+    # Sky-view factor: "multiply", by a quarter.
     return picture * (0.75 + 0.25 * _stretched(sky, land.sky))
 
 
@@ -77,9 +76,9 @@ def red_relief(heights: np.ndarray, cells: Cells, radius: float) -> np.ndarray:
     """Return a red relief image map, in which slopes are red, ridges bright and valleys dark, uint8
     (3, rows, columns), 1 to 255, 0 where there is no height.
     """
-    # There is no light, so that all directions look the same, and rises never look like hollows.
+    # Without a light, all directions look the same, and rises never look like hollows.
     heights = heights.astype(np.float32)
-    # Half of the difference is "ridge and valley", whatever the slope.
+    # Half of the difference is large on ridges and low in valleys on any slope.
     ridge = (openness(heights, cells, radius) - openness(-heights, cells, radius)) / 2
     value = _stretched(ridge, (_DARKEST, _BRIGHTEST))
     pale = value * (1 - _stretched(slope(heights, cells), (0.0, _REDDEST)))

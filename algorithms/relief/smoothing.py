@@ -1,9 +1,9 @@
-"""Removes noise from heights for pictures of the relief, and keeps banks, ditches and walls.
+"""Removes noise from heights for pictures of the relief, but keeps banks, ditches and walls.
 
 Under trees, ground points lie some decimetres too high on low plants, and are far apart, so that a
-hillshade of them is speckled. A surface of less detail is the trend of each place. What is left is
-noise where it has no direction, and a landform where it runs along a line: the structure tensor
-tells how much it varies along the direction in which it varies least. So the heights are smoothed
+hillshade of them is speckled. The difference of the heights from a smooth trend is noise if it
+varies in all directions, and a landform if it varies only across a line: the structure tensor
+states how much it varies in the direction in which it varies least. So the heights are smoothed
 only as much as they vary in all directions, which is little on open ground.
 
 References
@@ -22,27 +22,23 @@ import numpy as np
 from ..core.threads import in_threads
 from .local_relief import TRUNCATE, local_trend, reach_of
 
-# Standard deviation of the surroundings in metres, and its limits in cells: with fewer nothing is
-# smoothed.
+# Standard deviation of the weights of the trend in metres, its largest value in cells, and the
+# value in cells below which nothing is smoothed.
 _METRES = 2.0
 _MOST_CELLS = 4.0
 _LEAST_CELLS = 0.5
-# The structure is looked at in surroundings wider by this factor.
-_WIDER = 1.5
-# Noise, as a slope, that is smoothed by half.
-_VISIBLE = 0.02
+_WIDER = 1.5  # ratio of the standard deviation for the structure tensor to that for the trend
+_VISIBLE = 0.02  # slope of noise that is smoothed by half
 
 
 def smoothing_reach(cell_size: float) -> int:
-    """Return how many cells away a cell still matters to `without_noise`."""
+    """Return the distance in cells up to which cells affect `without_noise`."""
     sigma = _sigma(cell_size)
     return 2 * reach_of(sigma) + 1 + reach_of(_WIDER * sigma) if sigma else 0
 
 
 def without_noise(heights: np.ndarray, cell_size: float) -> np.ndarray:
-    """Return heights in metres, NaN for none, with less noise, for pictures of the relief; with
-    cells of 4 m and more, as they are.
-    """
+    """Return heights in metres, NaN for none, with less noise; unchanged for cells from 4 m on."""
     sigma = _sigma(cell_size)
     heights = heights.astype(np.float64)
     if not sigma or not np.isfinite(heights).any():
@@ -50,7 +46,7 @@ def without_noise(heights: np.ndarray, cell_size: float) -> np.ndarray:
     rough = heights - local_trend(heights, (sigma, sigma))
     rough -= local_trend(rough, (sigma, sigma))
     largest, smallest = _structure(rough / cell_size, _WIDER * sigma)
-    # Of what is left, the share that varies in all directions, and how visible it is.
+    # The share of the difference that varies in all directions, and how visible it is.
     share = smallest / np.maximum(largest, np.finfo(float).tiny)
     return heights - rough * share * smallest / (smallest + _VISIBLE**2)
 
@@ -67,7 +63,7 @@ def _structure(rough: np.ndarray, sigma: float) -> tuple[np.ndarray, np.ndarray]
     def mean(values: np.ndarray) -> np.ndarray:
         return gaussian_filter(values, sigma, mode="constant", truncate=TRUNCATE)
 
-    # Without a slope beside cells that have no height: it would be that of the border.
+    # Beside cells without a height, the slope is 0, since it would be that of the border.
     down, right = (
         np.nan_to_num(correlate1d(rough, (-0.5, 0.0, 0.5), axis, mode="constant", cval=np.nan))
         for axis in (0, 1)

@@ -1,4 +1,4 @@
-"""Addresses of remote files: which are followed, and how they are shown without their secrets."""
+"""Addresses of remote files: which are allowed, and how they are shown without secrets."""
 
 from __future__ import annotations
 
@@ -12,28 +12,26 @@ from ..core.errors import BareEarthError
 DEFAULT_PORTS = {"http": 80, "https": 443}
 WEB = tuple(DEFAULT_PORTS)
 STORES = ("s3", "gs", "az", "abfs")
-# Such as "s3://", but not a single letter: that is a drive of Windows.
+# A scheme such as "s3://", but not a single letter, which is a drive of Windows.
 _SCHEME = re.compile(r"([a-z][a-z0-9+.-]+)://", re.IGNORECASE)
-# What was meant as an address: "http:/user:password@host/..." and "user:password@host/...".
+# Mistyped addresses: "http:/user:password@host/..." and "user:password@host/...".
 _MISTYPED = re.compile(r"https?:[/\\]|[^/\\:@]{2,}:[^\\]*@[\w.:\[\]-]+(/|$)", re.IGNORECASE)
 # A server and its port, without a user.
 _HOST = re.compile(r"([^@:\[\]]*|\[[^@\[\]]*\])(:\d*)?")
-# What must not be encoded again, since signatures depend on it.
+# Characters that are not encoded, because signatures depend on them.
 _SAFE = "%/:?&=#+@!$'()*,;~[]|"
 
 
 def is_address(text: str) -> bool:
-    """Return whether a text is an address, if perhaps a mistyped one, and not a path on this
-    computer.
-    """
+    """Return whether a text is an address, or a mistyped one, and not a path on this computer."""
     if _SCHEME.match(text):
         return True
     return _MISTYPED.match(text) is not None and not os.path.exists(text)
 
 
 def checked(address: str) -> str:
-    """Return an address without spaces and other characters that servers do not know; refuse one
-    of another kind than those that are read here.
+    """Return an address with spaces and such characters encoded; refuse one of an unknown kind or
+    without a server.
     """
     scheme = _SCHEME.match(address)
     if scheme is None or scheme[1].lower() not in (*WEB, *STORES):
@@ -64,19 +62,17 @@ def shown(address: str) -> str:
     rest = address[scheme.end() :]
     if _HOST.fullmatch(re.split("[/?#]", rest)[0]):
         return f"{scheme[0]}{re.split('[?#]', rest)[0]}"
-    # A password can hold what ends a server or a path elsewhere.
+    # A password can contain characters that end a server or a path in other addresses.
     return f"{scheme[0]}{re.split('[?#]', rest.rpartition('@')[2])[0]}"
 
 
 def host_of(address: str) -> str:
-    """Return the server of an address, or what stands for it: the bucket of a store."""
+    """Return the server of an address, or the bucket of a store."""
     return (urlsplit(address).hostname or "").lower()
 
 
 def origin_of(address: str) -> str:
-    """Return scheme, server and port of an address, or scheme and bucket: who names one address
-    has named these.
-    """
+    """Return scheme, server and port of an address, or scheme and bucket."""
     parts = urlsplit(address)
     scheme, host = parts.scheme.lower(), host_of(address)
     host = f"[{host}]" if ":" in host else host
@@ -91,13 +87,13 @@ def name_of(address: str) -> str:
 
 
 def ends_with(address: str, *endings: str) -> bool:
-    """Return whether the path of an address has one of some endings, whatever its query is."""
+    """Return whether the path of an address has one of the endings."""
     return name_of(address).lower().endswith(endings)
 
 
 def beside(address: str, name: str) -> str:
-    """Return the address or path of a file in the folder of another one, with the same query, in
-    which the signature of a whole folder may stand.
+    """Return the address or path of a file in the folder of another one, with the same query, which
+    may contain a signature for the folder.
     """
     if not is_address(address):
         return str(Path(address).parent / name)

@@ -1,7 +1,7 @@
-"""Asks servers by http and https: one attempt at a time, with connections that are kept.
+"""Single requests by http and https, with connections that are kept open.
 
-Certificates are those of the system or of SSL_CERT_FILE, proxies those of the environment or of the
-settings of the system.
+Certificates are those of the system or of SSL_CERT_FILE. Proxies are those of the environment or of
+the settings of the system.
 """
 
 from __future__ import annotations
@@ -22,8 +22,7 @@ from .addresses import DEFAULT_PORTS, shown
 from .answers import REDIRECTS, Unfinished, refused_by_proxy
 from .web_reader import Check, WebReader
 
-# Seconds without a byte after which a connection is given up.
-_TIMEOUT = 30.0
+_TIMEOUT = 30.0  # seconds without a byte after which a connection is closed
 _BLOCK = 1 << 16
 
 
@@ -33,7 +32,7 @@ class HttpReader(WebReader):
     def __init__(self) -> None:
         super().__init__()
         self._idle: dict[tuple[str, str], list[http.client.HTTPConnection]] = {}
-        # Connections, with when those in use are to end; more bytes give more time.
+        # Connections, with the time at which those in use must end, which received bytes extend.
         self._open: dict[http.client.HTTPConnection, float] = {}
 
     def close(self) -> None:
@@ -45,8 +44,8 @@ class HttpReader(WebReader):
             _end(connection)
 
     def end_overdue(self) -> None:
-        """End the connections whose answers take too long, in whichever part of them."""
-        # A timeout of a socket is that of a single read, and a server can send a byte now and then.
+        """End the connections whose answers take too long."""
+        # The timeout of a socket is for a single read, but a server can send single bytes.
         with self._lock:
             now = time.monotonic()
             overdue = [connection for connection, end in self._open.items() if now > end]
@@ -56,7 +55,7 @@ class HttpReader(WebReader):
     def _ask(
         self, place: str, headers: dict[str, str], check: Check, most: int, is_named: bool
     ) -> bytes | str:
-        """Return the bytes of an answer that passes a check, or where a redirect leads."""
+        """Return the bytes of an answer that passes a check, or the target of a redirect."""
         with self._answered(place, headers, is_named) as (connection, answer):
             if answer.status in REDIRECTS:
                 return answer.headers.get("Location", "")
@@ -67,7 +66,7 @@ class HttpReader(WebReader):
     def _answered(
         self, address: str, headers: dict[str, str], is_named: bool
     ) -> Iterator[tuple[http.client.HTTPConnection, http.client.HTTPResponse]]:
-        """Ask, and yield connection and answer; keep the connection if it was read to its end."""
+        """Make a request, and yield connection and answer; keep the connection if all was read."""
         parts = urlsplit(address)
         target, headers = _request(parts, headers, is_named)
         connection, was_idle = self._connection(parts)
@@ -82,7 +81,7 @@ class HttpReader(WebReader):
                 is_kept = is_kept and not (answer.will_close or self._closed)
                 answer.close()
         except Unfinished as error:
-            # A server may end a connection that nobody uses.
+            # A server may close a connection that was not used for some time.
             error.is_stale = was_idle and not has_answered
             if time.monotonic() > self._open.get(connection, math.inf):
                 raise Unfinished("its answer takes too long", data=error.data) from error
@@ -104,7 +103,9 @@ class HttpReader(WebReader):
         length: int | None,
         most: int,
     ) -> bytes:
-        """Return the bytes of an answer; `Unfinished` with what came if there are fewer or more."""
+        """Return the bytes of an answer; `Unfinished`, with the received bytes, if their number is
+        wrong.
+        """
         data, limit = bytearray(), most if length is None else length
         try:
             with _errors_told(connection.host):
@@ -127,7 +128,7 @@ class HttpReader(WebReader):
         return bytes(data)
 
     def _connection(self, parts: SplitResult) -> tuple[http.client.HTTPConnection, bool]:
-        """Return a connection to a server, and whether it is one that was kept."""
+        """Return a connection to a server, and whether it was kept from a request before."""
         with self._lock:
             self.requests += 1
             idle = self._idle.get(_origin(parts))
@@ -137,7 +138,7 @@ class HttpReader(WebReader):
 
 
 def _end(connection: http.client.HTTPConnection) -> None:
-    """Let reads from a connection fail; the thread that uses it closes it."""
+    """Let reads from a connection fail, so that the thread that uses it closes it."""
     if connection.sock is not None:
         with contextlib.suppress(OSError, ValueError):
             connection.sock.shutdown(socket.SHUT_RDWR)
@@ -150,9 +151,9 @@ def _origin(parts: SplitResult) -> tuple[str, str]:
 def _request(
     parts: SplitResult, headers: dict[str, str], is_named: bool
 ) -> tuple[str, dict[str, str]]:
-    """Return what is asked for, and the headers."""
+    """Return the target and the headers of a request."""
     headers = dict(headers)
-    # A password that the user named is for the host that the user named.
+    # A password in the address of the user is only for the host in this address.
     if parts.username is not None and is_named:
         headers["Authorization"] = _basic(parts)
     target, proxy = urlunsplit(("", "", parts.path or "/", parts.query, "")), _proxy_of(parts)
@@ -194,14 +195,14 @@ def _proxy_of(parts: SplitResult) -> SplitResult | None:
 
 
 def _basic(parts: SplitResult) -> str:
-    """Return the user and the password of an address as a header has them."""
+    """Return the user and the password of an address as the value of a header."""
     words = f"{unquote(parts.username or '')}:{unquote(parts.password or '')}"
     return f"Basic {base64.b64encode(words.encode()).decode()}"
 
 
 @contextlib.contextmanager
 def _errors_told(host: str) -> Iterator[None]:
-    """Turn errors of connections into `Unfinished`, or into a sentence if they will stay."""
+    """Turn errors of connections into `Unfinished`, lasting ones into `BareEarthError`."""
     try:
         yield
     except ssl.SSLCertVerificationError as error:

@@ -20,7 +20,7 @@ from ..survey.window import are_inside
 # Bits of the global encoding.
 _GPS_TIME_TYPE = 0x01
 _WKT = 0x10
-# Places may differ by this share of a step when the integers of a tile are moved to another offset.
+# Largest change of a coordinate, in steps, if the integers of a tile are moved to another offset.
 _WHOLE = 0.01
 
 
@@ -91,7 +91,7 @@ def _inside(area: Area | None, tile: LasFile, records: np.ndarray) -> np.ndarray
 
 
 def _moved(layout: LasFile, tile: LasFile, records: np.ndarray) -> np.ndarray:
-    """Return records of a tile with the integers that their places have in the output."""
+    """Return records of a tile with coordinates as integers of the output."""
     for axis in range(3):
         scale, step = tile.scale[axis], layout.scale[axis]
         shift = tile.offset[axis] - layout.offset[axis]

@@ -1,4 +1,4 @@
-"""Tiles of EPT that are no LAZ files: rows of numbers, which the description explains.
+"""Tiles of EPT that are not LAZ files: rows of numbers, described by a schema.
 
 References
 ----------
@@ -40,7 +40,7 @@ _CLASS_FLAGS = "ClassFlags"
 _ANGLE = "ScanAngleRank"
 _ANGLE_UNIT = 0.006  # degrees, of scan angles since LAS 1.4
 _OFFSETS = tuple("XYZ")
-# Steps of coordinates that are no integers, in units of the CRS, and in degrees.
+# Scales for coordinates that are not integers, in units of the CRS and in degrees.
 _STEP = 0.001
 _STEP_DEGREES = 1e-8
 
@@ -51,8 +51,8 @@ class Schema:
     def __init__(
         self, described: Iterable[Document], cube: Sequence[float], is_geographic: bool
     ) -> None:
-        """Read the description, which raises ValueError, TypeError or KeyError if it makes no
-        sense; what is no integer of 32 bits becomes one in the cube of the octree.
+        """Read the schema (ValueError, TypeError or KeyError if it is wrong); coordinates that are
+        not integers of 32 bits are converted to such, relative to the cube of the octree.
         """
         rows = [
             (str(row["name"]), f"<{_KINDS[row['type']]}{int(row['size'])}") for row in described
@@ -145,7 +145,7 @@ class Schema:
 
 
 def _unpacked(data: bytes, size: int) -> bytes:
-    """Return the bytes of a tile that was compressed by Zstandard, of a size that is known."""
+    """Return the bytes of a tile that is compressed by Zstandard, which must have this size."""
     try:
         import zstandard
     except ImportError as error:

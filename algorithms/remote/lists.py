@@ -1,7 +1,7 @@
 """Lists of point clouds: virtual point clouds (VPC), and items and collections of STAC.
 
 A list can name any address. Those on servers that the user did not name are followed only if the
-user says so, and no list on a server leads to files of this computer.
+user allows it. Lists on servers cannot name files of this computer.
 
 References
 ----------
@@ -31,37 +31,36 @@ from .ept import DESCRIPTION
 from .files import read_local
 from .transfers import Transfers
 
-# Endings and media types of clouds of which parts can be read.
+# Endings and media types of point clouds of which parts can be read.
 _ENDINGS = (".copc.laz", DESCRIPTION)
 _MEDIA = ("application/vnd.laszip+copc",)
-# Most items of a list, and documents of which it consists.
-_MOST_ITEMS = 5_000
-_MOST_PAGES = 100
-# Most bytes of a list, and of a document with a single item, of which six are read at a time.
+_MOST_ITEMS = 5_000  # most items of a list
+_MOST_PAGES = 100  # most documents of a list
+# Most bytes of a list, and of a document with a single item, of which six are in memory at a time.
 _MOST_LIST = 1 << 25
 _MOST_ITEM = 1 << 22
-# Units to which lists round: metres, or degrees.
+# Lists may round extents by so much, in units of the CRS or in degrees.
 _ROUNDED = 1.0
 _ROUNDED_DEGREES = 1e-5
-_MOST_DEGREES = 361.0
-# Most point clouds that are asked themselves where their list says that none is near.
+_MOST_DEGREES = 361.0  # coordinates up to this value may be degrees
+# Most point clouds whose headers are read if none is near the area by the list.
 _MOST_ASKED = 100
 
 
 class Cloud(NamedTuple):
     """A point cloud in a list."""
 
-    address: str  # or a path of this computer
-    crs: str | None = None  # as code or well-known text, if the list says it
-    box: Box | None = None  # in this CRS
+    address: str  # or a path on this computer
+    crs: str | None = None  # code or well-known text, if the list states it
+    box: Box | None = None  # extent in this CRS
 
     def may_touch(self, area: Area | None) -> bool:
-        """Return whether an area can have points of the cloud, as far as the list says."""
+        """Return whether the cloud may have points in an area, as far as the list states this."""
         if area is None or self.box is None:
             return True
         crs = None
         if self.crs is not None and library() is not None:
-            with contextlib.suppress(BareEarthError):  # it is none that is known here
+            with contextlib.suppress(BareEarthError):  # the CRS is not known here
                 crs = crs_of_wkt(stated_wkt(self.crs) or "")
         west, south, east, north = self.box
         more = _ROUNDED_DEGREES if crs is not None and crs.is_geographic else _ROUNDED
@@ -69,7 +68,8 @@ class Cloud(NamedTuple):
         has_crs = isinstance(area.polygons, Shapes)
         if has_crs and crs is None:
             return True
-        # What has no CRS is in that of the points: nothing can be said if the list is in degrees.
+        # An area without a CRS is in that of the points. If the list is in degrees, they cannot be
+        # compared.
         stated = area.box or (box if has_crs else area.bounds)
         is_in_degrees = crs.is_geographic if crs else max(map(abs, box)) <= _MOST_DEGREES
         if is_in_degrees and max(map(abs, stated)) > _MOST_DEGREES:
@@ -79,8 +79,8 @@ class Cloud(NamedTuple):
 
 
 def clouds_of(address: str, transfers: Transfers) -> list[Cloud]:
-    """Return the point clouds at an address, or at the path of a file: itself, or those of a list;
-    refuse a list that leads to servers that the user did not name, unless that is allowed.
+    """Return the point cloud at an address or path, or those of a list; refuse a list that names
+    servers that the user did not name, unless that is allowed.
     """
     if ends_with(address, ".laz", ".las") or name_of(address).lower() == DESCRIPTION:
         return [Cloud(address)]
@@ -105,8 +105,8 @@ def clouds_of(address: str, transfers: Transfers) -> list[Cloud]:
 
 
 def near(clouds: list[Cloud], area: Area | None) -> list[Cloud]:
-    """Return the point clouds that can have points in an area; if a list says that none has, it may
-    state extents in another CRS than that of the points, and only they can tell.
+    """Return the point clouds that may have points in an area; all, if there are not too many, if
+    none has by the list, which may state extents in another CRS.
     """
     found = [cloud for cloud in clouds if cloud.may_touch(area)]
     return found or (clouds if len(clouds) <= _MOST_ASKED else [])
@@ -118,7 +118,7 @@ class _Reader:
     def __init__(self, address: str, transfers: Transfers) -> None:
         self._address, self._transfers = address, transfers
         self.strange: set[str] = set()  # servers that the user did not name
-        self.twice_count = 0  # items of which one file of several is taken
+        self.twice_count = 0  # items with several files, of which one is used
 
     def clouds(self) -> list[Cloud]:
         """Return the point clouds of all items, each once."""
@@ -182,7 +182,7 @@ class _Reader:
         if without_ept and len(without_ept) < len(right):
             self.twice_count += 1
             right = without_ept
-        # Some name COPC without its ending; what is none is refused when it is opened.
+        # The ending may be missing in names of COPC files. Other files are refused when opened.
         for asset in right or [asset for asset in known if ends_with(asset["href"], ".laz")]:
             properties = content.get("properties")
             about = {**(properties if isinstance(properties, dict) else {}), **asset}
@@ -199,7 +199,7 @@ class _Reader:
         ]
 
     def _followed(self, base: str, reference: str) -> Iterator[str]:
-        """Yield the address or path to which a document refers, unless its server is strange."""
+        """Yield the address or path that a document names, unless its server is not allowed."""
         if not is_address(base) and not is_address(reference):
             yield str(Path(base).parent / reference)
             return

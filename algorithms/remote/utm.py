@@ -26,19 +26,19 @@ from ..las.opening import open_las
 from ..las.records import HeaderCounts, column, read_records
 from ..las.writing import write_changed
 
-# Metres in the units of heights that a user can name; the word for what the CRS states.
-STATED = "stated"
+STATED = "stated"  # the word for the unit of heights that the CRS states
+# The units of heights that a user can name, in metres.
 HEIGHT_UNITS = {"metre": 1.0, "foot": 0.3048, "us-foot": 1200 / 3937}
 _WKT = 0x10  # in the global encoding
 
 
 @dataclass(frozen=True)
 class Utm:
-    """A zone of UTM, to which points are transformed."""
+    """A transformation of points to a zone of UTM, and of their heights to metres."""
 
-    source: str  # their CRS, as well-known text or code
-    zone: str  # such as "EPSG:32618"
-    height_unit: float  # of the heights, in metres, which the transformed ones are in
+    source: str  # CRS of the points, as well-known text or code
+    zone: str  # CRS of the zone, such as "EPSG:32618"
+    height_unit: float  # unit of the heights in metres
 
     def write(self, source: Path, target: Path, progress: Progress = SILENT) -> None:
         """Write a LAZ file of points in this zone."""
@@ -93,8 +93,8 @@ def states_height_unit(crs: Crs) -> bool:
 
 
 def utm_of(name: str, crs: Crs, box: Box, height_unit: str) -> Utm | None:
-    """Return the zone of UTM for points in Web Mercator, None if lengths in their CRS are right;
-    refuse heights of which nobody states the unit.
+    """Return the transformation to UTM of points in Web Mercator, None if lengths in their CRS are
+    right; refuse heights whose unit is not known.
     """
     source = crs.wkt or f"EPSG:{crs.epsg}"
     if not wrong_lengths(length_scale(crs, box)):

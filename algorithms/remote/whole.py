@@ -1,4 +1,4 @@
-"""A file on a server of which no part can be found, as plain LAZ: all of it is fetched."""
+"""A file on a server of which no part can be read, such as plain LAZ: all of it is downloaded."""
 
 from __future__ import annotations
 
@@ -16,12 +16,11 @@ from ..survey.shapes import Place
 from .copc import area_of
 from .files import RemoteFile
 
-# Bytes of a request.
-_PIECE = 1 << 23
+_PIECE = 1 << 23  # bytes of a request
 
 
 class WholePart:
-    """All of a file, if it can have points in an area."""
+    """The whole of a file, or nothing if it has no points in an area."""
 
     is_exact = is_whole = True
     missing_count = 0
@@ -40,16 +39,16 @@ class WholePart:
         self.size, self.request_count = plan.size, len(plan.requests)
 
     def fetch(self, progress: Progress) -> None:
-        """Get all of it."""
+        """Download the file."""
         self.file.fetch(self.file.plan(self._pieces), progress)
 
     def write(self, target: Path, progress: Progress = SILENT) -> int:
-        """Write the same bytes, if all points can be read; return the number of points."""
+        """Write the file as it is, and check that all points can be read; return their number."""
         self.file.twice(lambda: self._write(target, progress))
         return self.point_count
 
     def _write(self, target: Path, progress: Progress) -> None:
-        self.fetch(progress.part(0.0, 0.1))  # again what was damaged
+        self.fetch(progress.part(0.0, 0.1))  # pieces that were damaged are requested again
         with open(target, "wb") as file:
             for start, stop in self._pieces:
                 self.file.seek(start)

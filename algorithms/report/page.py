@@ -1,4 +1,4 @@
-"""The parts of a page: headings, paragraphs, tables, maps and bars; each escapes plain text."""
+"""The parts of an HTML page: headings, paragraphs, tables, maps and bars, which escape text."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ _RADIUS = 7
 
 
 class Html(str):
-    """Markup, which no part escapes again."""
+    """Markup, which is not escaped again."""
 
 
 def page(title: str, parts: Iterable[str], style: str = "") -> str:
@@ -162,7 +162,7 @@ def keys(colours: Iterable[str], meanings: Iterable[str]) -> Html:
 
 
 def bars(name: str, counts: Sequence[int], colours: Sequence[str], ticks: Sequence[str]) -> Html:
-    """Return bars of these counts side by side; the ticks below them are evenly spread."""
+    """Return a bar chart of counts, with evenly spread ticks below the bars."""
     wide, highest = _WIDTH / len(counts), max(*counts, 1)
     drawn, labels = [], []
     for number, (count, colour) in enumerate(zip(counts, colours)):
@@ -191,7 +191,7 @@ def line_chart(
     colours: tuple[str, str],
     units: tuple[str, str],
 ) -> Html:
-    """Return a line of values, NaN for gaps, on a band between two others, with both scales."""
+    """Return a chart of a line of values (NaN for gaps) on a band between two others."""
     known = np.concatenate([heights[np.isfinite(heights)] for heights in (*band, values)])
     if not len(known):
         return Html("")
@@ -218,7 +218,7 @@ def line_chart(
 
 
 def _runs(known: np.ndarray) -> list[slice]:
-    """Return where values are known without a gap."""
+    """Return the runs of values that are known."""
     ends = np.flatnonzero(np.diff(np.concatenate(([False], known, [False]))))
     return [slice(start, end) for start, end in ends.reshape(-1, 2).tolist()]
 
@@ -228,7 +228,7 @@ def _path(x: np.ndarray, y: np.ndarray) -> str:
 
 
 class Mark(NamedTuple):
-    """A place on a map, in the coordinates of the map, with what is shown under the mouse."""
+    """A place on a map, in its coordinates, with a title that is shown under the mouse."""
 
     x: float
     y: float

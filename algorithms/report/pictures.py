@@ -15,13 +15,11 @@ from ..grids.inpaint import inpaint
 from ..relief.hillshade import hillshade
 
 LONGEST_SIDE = 900
-# Side of a pixel, in mean distances between points, so that most pixels have a point.
+# Side of a pixel in mean distances between points, so that most pixels have a point.
 _SPACINGS = 1.2
-# Cells without a point, but next to one, are shaded.
-_GAP = 3
-# A cell with one marked point of many has a faint colour, but it must be visible.
-_FAINTEST = 0.55
-_DARKEST = 120
+_GAP = 3  # distance in pixels from one with points up to which empty pixels are shaded
+_FAINTEST = 0.55  # least weight of the colour of a mark, so that single marked points are visible
+_DARKEST = 120  # darkest grey, on which the colours are still visible
 # Colours of heights, from the lowest to the highest, and where there is no value.
 HEIGHTS = ("#33664d", "#9ab87a", "#e8dfa8", "#b9855a", "#f4f4f4")
 NOWHERE = "#ffffff"
@@ -62,8 +60,8 @@ class Relief:
         colours: tuple[str, str],
         counted: np.ndarray | None = None,
     ) -> Picture:
-        """Return the relief with points marked in two colours, such as ``#d1157f``; a pixel has
-        that of the more frequent mark, stronger for a larger share of those counted.
+        """Return the relief with points marked in two colours, such as ``#d1157f``; a pixel has the
+        colour of the more frequent mark, stronger for a larger share of the counted points.
         """
         of_first, of_second = self._counts(first), self._counts(second)
         every = self._counts(np.ones(len(first), dtype=bool) if counted is None else counted)
@@ -85,7 +83,6 @@ def _shade(place: np.ndarray, z: np.ndarray, shape: tuple[int, int], cell: float
     lower_at(lowest, place, -z)  # negative, for the highest points
     heights = np.where(np.isinf(lowest), np.nan, -lowest).reshape(shape)
     near = ndimage.binary_dilation(np.isfinite(heights), np.ones((3, 3)), _GAP)
-    # Without dark tones, on which the colours would not be visible.
     light = _DARKEST + (255 - _DARKEST) * (hillshade(inpaint(heights), cell) / 255.0)
     return np.where(near, light, 255.0)
 
@@ -103,7 +100,9 @@ def ramped(values: np.ndarray, colours: Sequence[str], low: float, high: float) 
 
 
 def reduced(values: np.ndarray, step: int, is_worst: bool = False) -> np.ndarray:
-    """Return the mean, or the worst (greatest), of squares of `step` cells a side, without NaN."""
+    """Return the mean, or the greatest value if `is_worst`, of squares of `step` x `step` cells,
+    without NaN.
+    """
     rows, columns = values.shape
     padded = np.pad(values, ((0, -rows % step), (0, -columns % step)), constant_values=np.nan)
     height, width = padded.shape

@@ -1,4 +1,4 @@
-"""The units of a survey in words: what is reported is computed in metres."""
+"""Lengths and heights as text in the units of a survey; all are computed in metres."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import numpy as np
 
 
 class Units(NamedTuple):
-    """The units of a survey: metres in one of them."""
+    """The horizontal and the vertical unit of a survey, in metres."""
 
     horizontal: float = 1.0
     vertical: float = 1.0
@@ -25,7 +25,7 @@ class Units(NamedTuple):
         return _symbol(self.vertical)
 
     def length(self, metres: float, digits: int = 3) -> str:
-        """Return a length in the unit of the survey, with metres if these are another unit."""
+        """Return a length in the unit of the survey, and in metres if that is another unit."""
         if self.horizontal == 1.0:
             return f"{metres:g} m"
         return f"{metres / self.horizontal:.{digits}g} {self.across} ({metres:g} m)"
