@@ -1,4 +1,4 @@
-"""What users give to tools beside declared parameters: points, files, areas, a CRS."""
+"""Arguments of functions beside declared parameters: points, files, areas, a CRS."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from ..tools.declaration import CLOUD_OUTPUT, LIST_OUTPUT, Output, help_of_area,
 from ..tools.declaration import CRS as DECLARED_CRS
 from ..tools.input_groups import GROUPS
 
-MOST = 2.0  # gigabytes of remote point clouds that are fetched unless the user allows more
+MOST = 2.0  # gigabytes: default of the limit for downloads of remote point clouds
 LIMIT_HELP = (
     "Gigabytes that may be downloaded of a remote point cloud. The log tells how many it takes"
     " before the download begins; more are refused."
@@ -21,7 +21,7 @@ LIMIT_HELP = (
 REQUIRED = inspect.Parameter.empty
 _PATH = "str | PathLike[str]"
 _LITERAL = "Literal[{}]"
-# What the help of an output says at its end, by its kind.
+# Last sentence of the help of an output, by its kind.
 _WRITTEN = {
     "raster": "Written as .tif.",
     "features": f"Written as {', '.join(WRITTEN_FORMATS)}; all but .geojson need pyogrio.",
@@ -32,11 +32,11 @@ _WRITTEN = {
 
 
 class Kind(NamedTuple):
-    """A kind of values, as editors and as documentation name it."""
+    """A kind of values of arguments."""
 
-    type: str
-    words: str
-    note: str = ""  # what the help of each argument of this kind says at its end
+    type: str  # the annotation
+    words: str  # the type in the documentation
+    note: str = ""  # last sentence of the help of all arguments of this kind
 
 
 KINDS = {
@@ -76,13 +76,13 @@ KINDS = {
 
 @dataclass(frozen=True)
 class Argument:
-    """Something that a user gives to a tool beside its declared parameters."""
+    """An argument of a function that is no declared parameter."""
 
-    name: str  # of the keyword; with hyphens, that of the option
+    name: str  # also of the option, where underscores become hyphens
     kind: Kind
     help: str
     default: object = None
-    choices: tuple[str, ...] = ()  # of words
+    choices: tuple[str, ...] = ()  # the allowed words; empty for any value
 
     @classmethod
     def of(cls, name: str, kind: str, help: str, default: object = None) -> Argument:
@@ -91,7 +91,7 @@ class Argument:
 
     @classmethod
     def choice(cls, name: str, choices: Iterable[str], default: str, help: str) -> Argument:
-        """Return an argument that is one of some words."""
+        """Return an argument with a few allowed words."""
         words = ", ".join(f'"{choice}"' for choice in choices)
         kind = Kind(_LITERAL.format(words), f"{{{words}}}")
         return cls(name, kind, help, default, tuple(choices))
@@ -125,7 +125,7 @@ SCHEDULER = Argument.of(
     " the work. Empty: this computer does it, a command in processes, and a function in threads,"
     " or with the word processes in processes.",
 )
-# Where the points may be on the web.
+# For points that may be on the web.
 REMOTE = (
     path(
         "cache",
@@ -138,7 +138,7 @@ VPC = of_output(LIST_OUTPUT)
 
 
 def of_group(kind: str) -> tuple[Argument, ...]:
-    """Return the arguments for an input that has several."""
+    """Return the arguments of a group of inputs."""
     return tuple(
         Argument.of(part.name, part.kind, part.help)
         for part in GROUPS[kind]
@@ -146,7 +146,7 @@ def of_group(kind: str) -> tuple[Argument, ...]:
     )
 
 
-# Constraints of functions that find the water themselves where it is automatic.
+# Constraints of functions that can find the water.
 WITH_AUTOMATIC_WATER = tuple(
     replace(argument, help=f"{argument.help} The word automatic: the water is found first.")
     if argument.name == "water"
@@ -156,6 +156,6 @@ WITH_AUTOMATIC_WATER = tuple(
 
 
 def area(help: str) -> tuple[Argument, Argument]:
-    """Return the arguments for a rectangle and for polygons, given the help of an area."""
+    """Return the arguments for the rectangle and the polygons of an area, from its help."""
     extent, boundary = help_of_area(help)
     return Argument.of("extent", "extent", extent), Argument.of("boundary", "polygons", boundary)

@@ -1,4 +1,4 @@
-"""Arguments of functions on arrays: points in memory, and what is known of them."""
+"""Arguments of functions on arrays: points in memory, and their attributes."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Functions on arrays that tell of the ground: errors at checkpoints, water, contour lines."""
+"""Functions on arrays that evaluate the ground: errors at checkpoints, and water."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ class _CloudGround(SurveyGround):
     """The ground points of a cloud in memory."""
 
     def __init__(self, cloud: PointCloud, ground: GroundClasses) -> None:
-        # As that of a file, so that cells begin at the same places.
+        # The box is that of a file with these points, so that cells begin at the same places.
         (west, south, east, north), (x, y) = cloud.box, cloud.scale[:2]
         box = west - x, south - y, east + x, north + y
         tile = SimpleNamespace(path=cloud.path, count=cloud.count, outer_box=box)
@@ -53,13 +53,13 @@ class _CloudGround(SurveyGround):
 
 
 def _ground_points(values: SimpleNamespace, sets: Sequence[ParameterSet]) -> _CloudGround:
-    """Return the ground points that the arguments of a function give."""
+    """Return the ground points in the arguments of a function."""
     cloud = cloud_with_ground(values, GroundClasses.among(sets), progress_of(values.progress))
     return _CloudGround(cloud, GroundClasses.among(sets))
 
 
 def _check(values: SimpleNamespace, sets: Sequence[ParameterSet]) -> Check:
-    """Return the errors at checkpoints, or at points that are held out."""
+    """Return the errors at checkpoints, or at held-out points."""
     progress, ground = progress_of(values.progress), GroundClasses.among(sets)
     with may_use(available_cpus()):
         return check_points(
@@ -101,11 +101,11 @@ def _residuals(values: SimpleNamespace, sets: Sequence[ParameterSet]) -> Feature
     if checkpoints is None:
         raise BareEarthError("Give checkpoints.")
     with may_use(available_cpus()):
-        found = residuals_of(
+        residuals = residuals_of(
             points, checkpoints, (None, None, None), (), tuple(values.vegetated or ()),
             options.max_edge, options.min_confidence, progress_of(values.progress),
         )  # fmt: skip
-    return Features.of(*layer_of(found, points.survey.crs))
+    return Features.of(*layer_of(residuals, points.survey.crs))
 
 
 def of_residuals() -> Function:
@@ -123,12 +123,12 @@ def of_residuals() -> Function:
 
 
 def _water(values: SimpleNamespace, sets: Sequence[ParameterSet]) -> dict[str, Features]:
-    """Return water and its breaklines by their names."""
+    """Return the water and its breaklines by name."""
     classes, progress = GroundClasses.among(sets), progress_of(values.progress)
     with may_use(available_cpus()):
         points = _ground_points(values, sets)
-        found, _ = water_of(points, Water.among(sets), classes, progress=progress)
-    return {layer.name: Features.of(layer, features) for layer, features in found.layers()}
+        water, _ = water_of(points, Water.among(sets), classes, progress=progress)
+    return {layer.name: Features.of(layer, features) for layer, features in water.layers()}
 
 
 def of_water() -> Function:

@@ -56,14 +56,14 @@ def of_contours() -> Function:
 
 
 def _relief(values: SimpleNamespace, sets: Sequence[ParameterSet]) -> dict[str, Raster]:
-    """Return pictures of the relief by their kinds."""
-    names, made = {kind: KINDS[kind] for kind in ReliefKinds.among(sets).kinds}, Collected()
+    """Return pictures of the relief by kind."""
+    names, collected = {kind: KINDS[kind] for kind in ReliefKinds.among(sets).kinds}, Collected()
     paths = {name: Path(name) for name in names.values()}
     draw_reliefs(
         heights_of(values.raster), paths, ReliefPictures.among(sets), progress_of(values.progress),
-        made.add, math.nan,
+        collected.add, math.nan,
     )  # fmt: skip
-    return {kind: made.rasters[name] for kind, name in names.items()}
+    return {kind: collected.rasters[name] for kind, name in names.items()}
 
 
 def of_relief() -> Function:
@@ -82,13 +82,13 @@ def of_relief() -> Function:
 
 
 def _bare(values: SimpleNamespace, sets: Sequence[ParameterSet]) -> Raster:
-    """Return a surface without objects."""
-    made, name = Collected(), Path("without_objects")
+    """Return a surface model without the objects on it."""
+    collected, name = Collected(), Path("without_objects")
     remove_objects_file(
         heights_of(values.raster), name, OffTerrain.among(sets), progress_of(values.progress),
-        made.add, math.nan,
+        collected.add, math.nan,
     )  # fmt: skip
-    return made.rasters[name.name]
+    return collected.rasters[name.name]
 
 
 def of_removal() -> Function:

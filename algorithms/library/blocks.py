@@ -55,7 +55,7 @@ class _Source(NamedTuple):
 
     name: str  # path or address
     box: Box
-    outer: Box  # the same wider by what rounding can do
+    outer: Box  # the box with a margin for rounding errors
 
 
 class _Work(NamedTuple):
@@ -64,11 +64,11 @@ class _Work(NamedTuple):
     grid: BlockGrid  # of the step that classifies
     place: BlockIndex
     is_classified: bool
-    box: Box  # of the points in the block, as far as files state theirs, in units of the CRS
+    box: Box  # extent of the points in the block, from the headers, in units of the CRS
     crs: Crs
     cache: Path | None  # None for the usual folder
-    most: float  # bytes that may be fetched
-    sources: tuple[str, ...]  # as they are read: signatures are needed, and shown to nobody
+    most: float  # bytes that may be downloaded
+    sources: tuple[str, ...]  # with signatures, which are never shown
 
     def __repr__(self) -> str:
         return "_Work(...)"
@@ -160,7 +160,7 @@ class Block:
 
 
 def are_blocks(points: object) -> bool:
-    """Return whether a user gives blocks in the place of points."""
+    """Return whether points are blocks."""
     return isinstance(points, (list, tuple)) and any(isinstance(point, Block) for point in points)
 
 
@@ -170,20 +170,20 @@ def blocks_of(values: SimpleNamespace, sets: Sequence[ParameterSet]) -> list[Blo
     inputs = {"corrections": corrections_of(values)}
     (step,) = map_tool("classify").steps(sets, inputs, {})
     stated, cache = stated_wkt(values.crs), values.cache and cache_of(values.cache)
-    given = several(values.sources)
-    remote = [str(source) for source in given if is_remote(source)]
-    local = [source for source in given if not is_remote(source)]
-    found = list(_local(local, sets, stated, progress))
-    for seen in look(remote, cache_of(cache), progress):
-        found.append((seen.address, stated_crs(values.crs) or seen.crs, seen.box, None))
-    crs, box = found[0][1], box_round(np.array([box for _, _, box, _ in found]))
-    for name, own, _, _ in found:
-        _check_same(name, own, crs)
+    sources = several(values.sources)
+    remote = [str(source) for source in sources if is_remote(source)]
+    local = [source for source in sources if not is_remote(source)]
+    clouds = list(_local(local, sets, stated, progress))
+    for cloud in look(remote, cache_of(cache), progress):
+        clouds.append((cloud.address, stated_crs(values.crs) or cloud.crs, cloud.box, None))
+    crs, box = clouds[0][1], box_round(np.array([box for _, _, box, _ in clouds]))
+    for name, crs_of_cloud, _, _ in clouds:
+        _check_same(name, crs_of_cloud, crs)
     require_measurable("The survey", crs, box)
     (step,) = placed([step], Place("the files", crs, box), progress)
     grid = BlockGrid(survey_frame(crs), step, stated)
     inside: dict[BlockIndex, list[_Source]] = {}
-    for name, _, box, tile in found:
+    for name, _, box, tile in clouds:
         source = _Source(name, box, tile.outer_box if tile else box)
         for place in places_of(grid, tile) if tile else indices(grid, box):
             inside.setdefault(place, []).append(source)
@@ -195,7 +195,7 @@ def blocks_of(values: SimpleNamespace, sets: Sequence[ParameterSet]) -> list[Blo
             raise BareEarthError(
                 "No block lies in the extent. Give the extent in the CRS of the points."
             )
-    made = []
+    blocks = []
     for place in sorted(wanted, key=lambda place: (place.row, place.column)):
         extent = in_crs(grid, grid.blocks.block(*place).box)
         window = extent if values.classified else grid.window([place])
@@ -206,8 +206,8 @@ def blocks_of(values: SimpleNamespace, sets: Sequence[ParameterSet]) -> list[Blo
             grid, place, values.classified, shared_by(extent, whole), crs, cache,
             most_bytes(values), tuple(names),
         )  # fmt: skip
-        made.append(Block(extent, window, tuple(map(shown, names)), crs.wkt, work))
-    return made
+        blocks.append(Block(extent, window, tuple(map(shown, names)), crs.wkt, work))
+    return blocks
 
 
 def _local(
@@ -221,7 +221,7 @@ def _local(
         return
     recursive = TileInput.among(sets).recursive
     survey = open_survey(Inputs(paths).read_as(stated, recursive), progress)
-    if survey.broken:  # it would look like a void
+    if survey.broken:  # a missing file would look like a void
         raise BareEarthError(survey.broken[0].reason)
     for tile in survey.tiles:
         yield str(tile.path), survey.crs, tile.box, tile
@@ -238,7 +238,7 @@ def _check_same(name: str, crs: Crs, common: Crs) -> None:
 
 
 def in_crs(grid: BlockGrid, metres: Box) -> Box:
-    """Return a box in units of the CRS, given in metres of the frame of a grid."""
+    """Return a box in metres of the frame of a grid in units of the CRS."""
     west, south, east, north = np.array(metres) / grid.frame.horizontal_unit
     x, y = grid.frame.origin
     return float(west + x), float(south + y), float(east + x), float(north + y)
@@ -257,7 +257,7 @@ def touch(first: Box, second: Box) -> bool:
 
 
 def shared_by(first: Box, second: Box) -> Box:
-    """Return what two boxes share."""
+    """Return the intersection of two boxes."""
     west, south = max(first[0], second[0]), max(first[1], second[1])
     return west, south, min(first[2], second[2]), min(first[3], second[3])
 
@@ -268,7 +268,8 @@ def points_of(
     """Return the points in a block with their classes, those of each file as one cloud, with the
     place of the file among the sources of the block.
     """
-    work, kept = block.work, []
+    work = block.work
+    clouds_with_masks: list[tuple[PointCloud, np.ndarray]] = []
     grid, number = work.grid, code(work.place)
     read = progress.part(0.0, 1.0 if work.is_classified else 0.3)
     sources: list[int] = []
@@ -279,45 +280,46 @@ def points_of(
     working = Work.in_memory(grid.step, grid.frame)
     with SharedThreads(1).used():
         for cloud in clouds:
-            kept.append((cloud, grid.codes(cloud) == number))
-            working.add(cloud, wanted=kept[-1][1])
+            is_inside = grid.codes(cloud) == number
+            clouds_with_masks.append((cloud, is_inside))
+            working.add(cloud, wanted=is_inside)
         failure = working.failure(
             ONE_THREAD, progress.part(0.3, 1.0), lambda block: grid.holding(block) == work.place
         )
     if failure:
         progress.warning(failure)
-    found = []
-    for place, (cloud, is_inside) in enumerate(kept):
+    classified = []
+    for place, (cloud, is_inside) in enumerate(clouds_with_masks):
         inside = np.flatnonzero(is_inside)
         values = working.store.values(place)[inside]
         values = np.zeros_like(values) if failure else values
-        found.append((sources[place], grid.step.applied(cloud.take(inside), values)))
-    return found
+        classified.append((sources[place], grid.step.applied(cloud.take(inside), values)))
+    return classified
 
 
 def _files_of(block: Block, progress: Progress) -> dict[int, Path]:
-    """Return the files of a block by the places of its sources; what is remote is fetched."""
-    work, found = block.work, {}
+    """Return the files of a block by the numbers of its sources, after downloading remote ones."""
+    work, files = block.work, {}
     remote: dict[str, int] = {}
     for number, name in enumerate(work.sources):
         if is_remote(name):
             remote[name] = number
         else:
-            found[number] = Path(name)
+            files[number] = Path(name)
     if remote:
         wanted = Wanted(Surroundings(block.window), most=work.most)
         advice = "Allow more, by the argument limit"
         with contextlib.suppress(Outside):
-            here = bring_here([*remote], wanted, cache_of(work.cache), advice, progress)
+            fetched = bring_here([*remote], wanted, cache_of(work.cache), advice, progress)
             numbers = {shown(name): number for name, number in remote.items()}
-            found.update((numbers[name], path) for path, name in here.paths.items())
-    return found
+            files.update((numbers[name], path) for path, name in fetched.paths.items())
+    return files
 
 
 def _read(
     block: Block, progress: Progress, sources: list[int], numbers: bool
 ) -> Iterator[PointCloud]:
-    """Yield the points of each file in the window of a block; `sources` gets the place of each."""
+    """Yield the points of each file in the window of a block, and add its number to `sources`."""
     work, files = block.work, _files_of(block, progress.quiet())
     for (number, path), part in zip(files.items(), progress.shares(*[1.0] * len(files))):
         las = open_las(path, work.grid.stated)
@@ -325,7 +327,7 @@ def _read(
             continue
         cloud = read_window(las, block.window, part, trust_header=True, numbers=numbers)
         if is_remote(work.sources[number]):
-            # A list can say what is not true.
+            # The CRS that a list of files states can be wrong.
             _check_same(block.sources[number], cloud.crs, work.crs)
         if cloud.count:
             sources.append(number)

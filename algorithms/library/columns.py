@@ -1,4 +1,4 @@
-"""The columns of points that users give: arrays, tables of any library, and records of laspy."""
+"""The columns of points: arrays, tables of any library, and records of laspy."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ from ..core.errors import BareEarthError
 from ..survey.vector_files import FRAME, is_frame
 
 COORDINATES = ("x", "y", "z")
-# Columns of tables, without case and underscores, and the fields of a cloud that they are.
+# Fields of a cloud by the names of columns of tables, in lower case and without underscores.
 _NAMES = {
     "x": "x", "y": "y", "z": "z", "classification": "classification",
     "returnnumber": "return_number", "numberofreturns": "number_of_returns",
     "withheld": "withheld", "overlap": "overlap",
 }  # fmt: skip
-# Columns of the raw records of laspy: which of their bits, from which on and how many, are what.
+# Bits in the columns of raw records of laspy, by field: column, first bit and number of bits.
 _BITS = {
     "return_number": ("bitfields", 0, 3), "number_of_returns": ("bitfields", 3, 3),
     "classification": ("rawclassification", 0, 5), "withheld": ("rawclassification", 7, 1),
@@ -33,22 +33,22 @@ _STORED = np.dtype(np.int32)
 
 
 def refuse_beside(values: SimpleNamespace, owner: str, names: Iterable[str]) -> None:
-    """Refuse columns that are given twice."""
+    """Refuse arguments for columns that the points of `owner` already have."""
     for name in names:
         if getattr(values, name) is not None:
             raise BareEarthError(f"{owner} its own {name}: leave the argument {name} out.")
 
 
 def is_record(points: object) -> bool:
-    """Return whether a user gives a `laspy.LasData`, or points of one with scales and offsets."""
+    """Return whether points are a `laspy.LasData`, or its points with scales and offsets."""
     return hasattr(points, "point_format") and (
         hasattr(points, "header") or hasattr(points, "scales")
     )
 
 
 def columns_of(values: SimpleNamespace) -> dict[str, object]:
-    """Return the columns of arrays or of a table, by the fields of a cloud; refuse the integers of
-    files, which are no coordinates.
+    """Return the columns of arrays or of a table, by the fields of a cloud; refuse unscaled
+    integers of files.
     """
     columns = _columns_of(values)
     kinds = {
@@ -67,7 +67,7 @@ def columns_of(values: SimpleNamespace) -> dict[str, object]:
 
 
 def _columns_of(values: SimpleNamespace) -> dict[str, object]:
-    """Return the columns of points by their fields, whatever holds them."""
+    """Return the columns of points of any type, by the fields of a cloud."""
     points = values.points
     if isinstance(points, (str, PathLike)) or hasattr(points, "chunk_iterator"):
         raise BareEarthError(
@@ -100,20 +100,21 @@ def _columns_of(values: SimpleNamespace) -> dict[str, object]:
 
 
 def _known(points: Any, names: Iterable[object]) -> dict[str, object]:
-    """Return the columns of a table that are used, by the fields of a cloud."""
-    # Beside the integers X, Y and Z of laspy, x, y and z are coordinates: lower case comes last.
+    """Return the columns of a table with a known name, by the fields of a cloud."""
+    # A table can have both X, Y and Z of laspy, which are integers, and x, y and z, which are
+    # coordinates. Lower case is sorted last, and so replaces upper case.
     known = {str(name).lower().replace("_", ""): name for name in sorted(names, key=str)}
-    found = {name: points[known[name]] for name in sorted(_RAW & known.keys())}
+    columns = {name: points[known[name]] for name in sorted(_RAW & known.keys())}
     bits = _BITS_FROM_6 if "classificationflags" in known else _BITS
     for field, (name, start, count) in bits.items():
         if name in known:
-            found[field] = np.asarray(points[known[name]]) >> start & (1 << count) - 1
-    found.update((field, points[known[name]]) for name, field in _NAMES.items() if name in known)
-    return found
+            columns[field] = np.asarray(points[known[name]]) >> start & (1 << count) - 1
+    columns.update((field, points[known[name]]) for name, field in _NAMES.items() if name in known)
+    return columns
 
 
 def _of_frame(values: SimpleNamespace) -> dict[str, object]:
-    """Return the columns of a GeoDataFrame or a GeoSeries, whose geometry counts before columns."""
+    """Return the columns of a GeoDataFrame or a GeoSeries, with x, y and z of its geometry."""
     points, shapes = values.points, values.points.geometry
     refuse_beside(values, f"{FRAME} has", COORDINATES[1:])
     if not (shapes.geom_type == "Point").all():
@@ -126,7 +127,7 @@ def _of_frame(values: SimpleNamespace) -> dict[str, object]:
 
 
 def _separate(values: SimpleNamespace) -> dict[str, object]:
-    """Return x, y and z, given as three arrays or as one."""
+    """Return x, y and z from three arrays or from one."""
     if values.y is None and values.z is None:
         xyz = array_of("points", values.points, (None, 3))
         return dict(zip(COORDINATES, xyz.T))
@@ -137,7 +138,7 @@ def _separate(values: SimpleNamespace) -> dict[str, object]:
 
 
 def array_of(name: str, given: object, shape: tuple[int | None, ...]) -> np.ndarray:
-    """Return an argument as an array of numbers; None in a shape is any number."""
+    """Return an argument as an array of numbers; None in the shape allows any length."""
     if isinstance(given, np.ma.MaskedArray) and np.ma.is_masked(given):
         raise BareEarthError(f"{name} has masked values. Leave these points out.")
     array = np.asarray(given)

@@ -1,4 +1,4 @@
-"""Makes functions of the library from what is declared of them."""
+"""Makes functions of the library from their declarations."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ from .remote_points import bring_points
 
 PACKAGE = __name__.partition(".algorithms.")[0]
 _WIDTH = 92
-# Arguments that stand behind the parameters.
+# Arguments that come after the parameters.
 _LAST = ("crs", "vpc", "cache", "limit", "scheduler", "progress")
 _TYPES = {"number": "float", "integer": "int", "boolean": "bool"}
-# What takes values of some kinds in all forms that users give them.
-_TAKEN = {KINDS["crs"]: crs_text, KINDS["extent"]: extent_of}
+# Converts the values of some kinds, which users can give in several types.
+_CONVERTERS = {KINDS["crs"]: crs_text, KINDS["extent"]: extent_of}
 _RAISES = """
 Raises
 ------
@@ -41,7 +41,7 @@ Run = Callable[[SimpleNamespace, Sequence[ParameterSet]], object]
 
 @dataclass(frozen=True)
 class Described:
-    """A parameter of a function, and what its documentation says of it."""
+    """A parameter of a function with its documentation."""
 
     parameter: inspect.Parameter
     words: str  # its type and default
@@ -56,7 +56,7 @@ class Described:
 
 @dataclass(frozen=True)
 class Function:
-    """What is declared of a function of the library."""
+    """The declaration of a function of the library."""
 
     name: str
     about: str  # a sentence, or paragraphs
@@ -64,29 +64,29 @@ class Function:
     keywords: tuple[Argument, ...]
     sets: tuple[type[ParameterSet], ...]
     run: Run
-    result: type | None = None  # class of what it returns
-    gives: Kind | None = None  # what it returns, if that is no class of ours
+    result: type | None = None  # class of the value that it returns
+    gives: Kind | None = None  # kind of this value, if `result` is None
     has_method: bool = False  # whether it takes the parameters of a ground filter
-    # Further names of parameters, which take one value.
+    # Other names of parameters with several values, which take one value.
     flags: Mapping[str, str] = field(default_factory=dict)
-    without: tuple[str, ...] = ()  # parameters of the sets that mean nothing here
+    without: tuple[str, ...] = ()  # parameters of the sets that have no effect in it
 
     @property
     def parameters(self) -> list[Described]:
         """The parameters in order."""
         first = [argument for argument in self.keywords if argument.name not in _LAST]
         last = [argument for argument in self.keywords if argument.name in _LAST]
-        found = [_of_argument(argument, is_keyword=False) for argument in self.positional]
-        found += map(_of_argument, first)
+        parameters = [_of_argument(argument, is_keyword=False) for argument in self.positional]
+        parameters += map(_of_argument, first)
         if self.has_method:
-            found += [_of_declaration(TileMethod.declarations()[0]), *_of_methods()]
+            parameters += [_of_declaration(TileMethod.declarations()[0]), *_of_methods()]
         for declared in (parameter for group in self.sets for parameter in group.declarations()):
             if declared.name in self.without:
                 continue
-            found.append(_of_declaration(declared))
+            parameters.append(_of_declaration(declared))
             if declared.name in self.flags:
-                found.append(_of_flag(declared, self.flags[declared.name]))
-        return [*found, *map(_of_argument, last)]
+                parameters.append(_of_flag(declared, self.flags[declared.name]))
+        return [*parameters, *map(_of_argument, last)]
 
     @property
     def documentation(self) -> str:
@@ -108,7 +108,7 @@ class Function:
 
     @property
     def returns(self) -> str:
-        """The annotation of what it returns."""
+        """The annotation of the value that it returns."""
         if self.gives is not None:
             return self.gives.type
         name = "None" if self.result is None else self.result.__name__
@@ -126,8 +126,8 @@ class Function:
         return inspect.Signature(parameters, return_annotation=self.returns)
 
     def sets_of(self, values: Mapping[str, object], named: Collection[str]) -> list[ParameterSet]:
-        """Return the sets of parameters, given all values and which of them the user named."""
-        found = []
+        """Return the sets of parameters from all values, and the names that the user gave."""
+        sets: list[ParameterSet] = []
         if self.has_method:
             (method,) = TileMethod.declarations()[:1]
             chosen = METHODS[method.check(values["method"])].parameters
@@ -138,7 +138,7 @@ class Function:
                         f"{self.name}(): {name} is no parameter of method={values['method']!r}."
                         f"{_suggestion(name, names)}"
                     )
-            found.append(chosen(**{key: values[key] for key in names if values[key] is not None}))
+            sets.append(chosen(**{key: values[key] for key in names if values[key] is not None}))
         for declared in self.sets:
             given = {
                 parameter.name: values[parameter.name]
@@ -148,11 +148,11 @@ class Function:
             for name, flag in self.flags.items():
                 if name in given and values[flag] is not None:
                     given[name] = values[flag]
-            found.append(declared(**given))
-        return found
+            sets.append(declared(**given))
+        return sets
 
     def work(self, values: SimpleNamespace, sets: Sequence[ParameterSet]) -> Any:
-        """Fetch the points that are given by addresses, and run."""
+        """Download points that are given by address, and run."""
         with bring_points((*self.positional, *self.keywords), values, sets):
             return self.run(values, sets)
 
@@ -172,8 +172,8 @@ class Function:
             bound.apply_defaults()
             values = bound.arguments
             for argument in (*self.positional, *self.keywords):
-                if argument.kind in _TAKEN:
-                    values[argument.name] = _TAKEN[argument.kind](values[argument.name])
+                if argument.kind in _CONVERTERS:
+                    values[argument.name] = _CONVERTERS[argument.kind](values[argument.name])
             return self.work(SimpleNamespace(**values), self.sets_of(values, named))
 
         function.__name__ = function.__qualname__ = name
@@ -229,7 +229,7 @@ def _of_declaration(declared: Declaration) -> Described:
 
 
 def _of_flag(declared: Declaration, flag: str) -> Described:
-    """Return a further name of a parameter, which takes one value."""
+    """Return another name of a parameter with several values, which takes one value."""
     kind = re.sub(r"^Sequence\[(.*)\]$", r"\1", _kind_of(declared).type)
     annotation = kind if kind.endswith("None") else f"{kind} | None"
     keyword = inspect.Parameter.KEYWORD_ONLY
@@ -253,17 +253,17 @@ def _kind_of(declared: Declaration) -> Kind:
 
 
 def _declared_by_method() -> dict[str, dict[str, Declaration]]:
-    """Return the declarations of all parameters of ground filters, by names and methods."""
-    found: dict[str, dict[str, Declaration]] = {}
+    """Return the declarations of all parameters of ground filters, by name and method."""
+    declarations: dict[str, dict[str, Declaration]] = {}
     for method in METHODS.values():
         for declared in method.parameters.declarations():
-            found.setdefault(declared.name, {})[method.name] = declared
-    return found
+            declarations.setdefault(declared.name, {})[method.name] = declared
+    return declarations
 
 
 def _of_methods() -> list[Described]:
-    """Return the parameters of all ground filters; each has those of its name in one."""
-    found = []
+    """Return the parameters of all ground filters, those with one name as one parameter."""
+    parameters_of_methods = []
     for by_method in _declared_by_method().values():
         described = {method: _of_declaration(declared) for method, declared in by_method.items()}
         parameters = [only.parameter for only in described.values()]
@@ -281,5 +281,5 @@ def _of_methods() -> list[Described]:
                 for method, declared in described.items()
             )
         parameter = parameters[0].replace(default=None, annotation=" | ".join(types))
-        found.append(Described(parameter, words, help))
-    return found
+        parameters_of_methods.append(Described(parameter, words, help))
+    return parameters_of_methods

@@ -1,4 +1,4 @@
-"""What a user can ask for of classified points, one file for each tool.
+"""The tools: what a user can ask for, one file or folder for each.
 
 A file declares its tool as `TOOL`. The command line, the library and the dialogs of QGIS are made
 from this declaration; see `declaration.py`.

@@ -28,37 +28,36 @@ TILES = "vpc,tiles,batch,survey,folder,many files"
 
 @dataclass(frozen=True)
 class Input:
-    """An input of a tool; of one for points, one beside the points."""
+    """An input of a tool; the points of a tool for points are not declared as an input."""
 
-    name: str  # of the argument of the work, or the field of the step, and of the option
-    # One of these; in brackets, what a tool gets:
+    name: str  # of the argument of `work` or the field of the step, and of the option
+    # One of these kinds; in brackets, the type of the value that a tool gets:
     # "cloud": a point cloud file (a path); "clouds": files of a survey (paths), in a dialog a file
     # or a list of files; "files": the same, in a dialog several files or a folder; "survey": the
     # same, in a dialog a file or a folder;
     # "address": of a remote file, or a path (text);
     # "raster": a file with a band of heights (its path, or another name that GDAL knows);
     # "crs": the CRS of the points, if the user states it (text; "clouds" know it);
-    # "area" (an `Area`) and "polygons" (what `of` makes): of tools for points only;
+    # "area" (an `Area`) and "polygons" (what `of` returns): only of tools for points;
     # "extent": a rectangle in the CRS of the points (a `Box`);
     # "words": several words (a tuple of text);
-    # "checkpoints", "constraints", "corrections" and "target": see `input_groups.py`, whose parts
-    # can be "points", "lines", "attribute" and "text", too.
+    # "checkpoints", "constraints", "corrections" and "target": groups of inputs, as
+    # `input_groups.py` lists them, of which some are "points", "lines", "attribute" or "text".
     kind: str
-    # Makes the value of the field of a step from polygons, or from a raster and the progress.
+    # Converts polygons, or a raster and the progress, to the value that the tool gets.
     of: Callable[..., Any] = lambda value, *progress: value
-    # A sentence or several, for option, argument and field, which add what their kind needs, such
-    # as file formats; it may name tools and options as `in_words` has them. Of an area, {area} is
-    # its extent or its boundary.
+    # A few sentences for the option, the argument and the field, to which these add file formats.
+    # `in_words` replaces names of tools and options in it; {area} is the extent or the boundary.
     help: str = ""
     label: str = ""  # of the field in the dialog; empty if there is none
-    named: str = ""  # the field and the argument, if not as the name in upper case
-    optional: bool = False  # otherwise a cloud or a raster is an argument of the command
+    named: str = ""  # name of the field and of the argument, if not `name` in upper case
+    optional: bool = False  # a cloud or a raster that is not is an argument of the command
     advanced: bool = False
     is_last: bool = False  # whether the field is below the parameters
-    may_be_empty: bool = False  # of polygons: whether a file or a layer may hold none
-    # Finds the value in place of `ToFind`, where the user gives no polygons, or the word automatic:
-    # given files, which of their points are ground, and the progress.
-    found: Callable[[Inputs, GroundClasses, Progress], object] | None = None
+    may_be_empty: bool = False  # whether a file or a layer of polygons may contain none
+    # Returns the value in place of `ToFind`, which stands for polygons that the user leaves out, or
+    # for the word automatic. Its arguments: the files, which points are ground, the progress.
+    found: Callable[[Inputs, GroundClasses, Progress], Any] | None = None
 
     @property
     def field_name(self) -> str:
@@ -67,9 +66,9 @@ class Input:
 
 
 class ToFind(NamedTuple):
-    """In place of the value of an input: it is found before the work, beside what is given."""
+    """Stands for the value of an input that `Input.found` returns before the work."""
 
-    given: Any = None
+    given: Any = None  # the `Constraints` of the user, to which the value is added
 
 
 # The points and their CRS, as most tools have them.
@@ -88,45 +87,45 @@ CLASSIFIED = replace(POINTS, name="sources", named="INPUT")
 
 
 def with_note(help: str, note: str) -> str:
-    """Return a help text with a further sentence before the one on what is empty."""
+    """Return a help text with another sentence, before the one that begins with "Empty:"."""
     first, empty, last = help.partition("Empty:")
     return " ".join(filter(None, (first.strip(), note, f"{empty}{last}")))
 
 
 def help_of_area(help: str) -> tuple[str, str]:
-    """Return the help of the extent and of the boundary of an area, given that of the input."""
+    """Return the help texts of the extent and of the boundary, from the help of an area."""
     boundary = with_note(help, "With an extent, only what lies in both counts.")
     return help.format(area="this rectangle"), boundary.format(area="these polygons")
 
 
 @dataclass(frozen=True)
 class Output:
-    """A file that a tool writes, or a folder of rasters; the work gets its temporary path."""
+    """A file that a tool writes, or a folder of rasters; `work` gets a temporary path."""
 
-    # All outputs are checked before the work begins, and get their names together when it ends.
-    name: str  # of the argument of the work, and of the option
-    # "raster", "features", "page", "table" or "folder"; of points "cloud", "points" for LAZ, or
-    # for a new folder of such files, and "list" for the virtual point cloud of many files.
+    # All outputs are checked before the work, and are moved to their places together at its end.
+    name: str  # of the argument of `work`, and of the option
+    # "raster", "features", "page", "table" or "folder"; for points "cloud", "points" (a LAZ file,
+    # or a new folder of such files), and "list" (the virtual point cloud of many files).
     kind: str
-    help: str = ""  # a sentence or several, as of an input
+    help: str = ""  # as `Input.help`
     label: str = ""  # of the field in the dialog; empty if there is none
-    named: str = ""  # the field and the argument, if not as the name in upper case
-    flag: str = ""  # of the command, if it is not made of the name
+    named: str = ""  # name of the field and of the argument, if not `name` in upper case
+    flag: str = ""  # of the command, if it is not made of `name`
     is_main: bool = False  # whether the command needs it, as an argument without a flag
-    optional: bool = True  # whether the dialog can do without it
-    advanced: bool = False  # whether it is folded away, and the last in the help of the command
-    by_default: bool = True  # whether the dialog makes it unless the user says no
+    optional: bool = True  # whether it can be left empty in the dialog
+    advanced: bool = False  # whether it is folded away, and at the end of the help of the command
+    by_default: bool = True  # whether the dialog writes it unless the user switches it off
     look: str = ""  # how QGIS shows it: a name in `LOOKS` of plugin/styles/layers.py
-    needs: str = ""  # the input without which dialogs and deliveries do not make it
-    # Another tool draws it when the points are done: its command, and the output that it reads.
+    needs: str = ""  # an input; without it, dialogs and deliveries do not write this output
+    # The command of another tool that draws it afterwards, and the output that this tool reads.
     drawn_by: str = ""
     drawn_of: str = ""
-    # Of a folder: the rasters that the tool writes, by their names, in the folder that the user
-    # gives, or that file alone. The work gets their temporary paths by name.
+    # For a folder of rasters: returns their paths by their names, in the folder that the user
+    # gives, or that path if it is a file. `work` gets temporary paths by the same names.
     files: Callable[[Path, Sequence[ParameterSet]], dict[str, Path]] | None = None
     # Names and labels of these rasters that models in QGIS can use.
     layers: Mapping[str, str] = field(default_factory=dict)
-    page: str = ""  # the label of the page in a folder, which models can use
+    page: str = ""  # the label of the page that a folder contains, for models
 
     @property
     def field_name(self) -> str:
@@ -139,16 +138,16 @@ class Output:
         return self.flag or self.name.replace("_", "-")
 
     def paths(self, path: Path, sets: Sequence[ParameterSet]) -> dict[str, Path]:
-        """Return the files that are written, by their names: of a folder several."""
+        """Return the files that are written by their names, for a folder its rasters."""
         return {self.name: path} if self.files is None else self.files(path, sets)
 
     @property
     def file_kind(self) -> str:
-        """The kind of its files."""
+        """The kind of the files that are written."""
         return self.kind if self.files is None else "raster"
 
 
-# The points that tools for the ground write, and the list of the files of a survey.
+# The points that ground filters write, and the list of the files of a survey.
 CLOUD_OUTPUT = Output(
     "output",
     "cloud",
@@ -169,12 +168,12 @@ LIST_OUTPUT = Output(
 
 @dataclass(frozen=True)
 class Tool:
-    """What all tools declare."""
+    """Base of the declarations of tools."""
 
     command: str
     sets: tuple[type[ParameterSet], ...]  # in the order of the command
-    about: str = ""  # the paragraphs of its help that follow its line
-    own_line: str = ""  # of a dialog, in place of the one in the list of tools
+    about: str = ""  # the paragraphs of the help after its first line
+    own_line: str = ""  # first line in a dialog, if it differs from the one in `listing.py`
 
     identifier: str = ""  # second half of the id in the toolbox, which never changes; may be empty
     title: str = ""
@@ -182,27 +181,26 @@ class Tool:
     page: str = ""  # in the folder docs, perhaps with a section, as in "heights#model-key-points"
     words: tuple[str, ...] = ()  # for the search of the toolbox, separated by commas
     run_name: str = ""  # of the group of layers, if it is not the title
-    # Outputs that are numbers: their names, in lower case those of fields of the summary, and
-    # labels.
+    # Outputs that are numbers: names, which are fields of the summary in upper case, and labels.
     numbers: tuple[tuple[str, str], ...] = ()
-    texts: tuple[tuple[str, str], ...] = ()  # outputs that are sentences, named in the same way
+    texts: tuple[tuple[str, str], ...] = ()  # outputs that are sentences, in the same way
     inputs: tuple[Input, ...] = ()
-    titles: tuple[str, ...] = ()  # of the sets, in the help of the command
-    list_name: str = "classified.vpc"  # of the virtual point cloud of many written files
-    json: str | None = "what was done"  # what --json prints; None if there is nothing to tell
-    # If the dialog has another order, or other defaults: derived classes of those of the command.
+    titles: tuple[str, ...] = ()  # headings of the sets in the help of the command
+    list_name: str = "classified.vpc"  # name of the virtual point cloud of many written files
+    json: str | None = "what was done"  # what --json prints; None if there is no result
+    # The sets of the dialog if its order differs; derived classes if its defaults differ.
     dialog_sets: tuple[type[ParameterSet], ...] = ()
-    # Parameters that are not advanced in the dialog, if not as declared.
+    # Parameters that the dialog does not fold away; None for those that are not advanced.
     shown: tuple[str, ...] | None = None
 
     @property
     def line(self) -> str:
-        """A sentence on it."""
+        """The first line of its help, a sentence."""
         return self.own_line or listed(self.command).line
 
     @property
     def help(self) -> str:
-        """The paragraphs of its help, in command, dialog and library."""
+        """The help text in command, dialog and library."""
         return f"{self.line}\n{self.about}".rstrip()
 
     @property
@@ -217,7 +215,7 @@ class Tool:
 
     @property
     def all_inputs(self) -> tuple[Input, ...]:
-        """The inputs with those that all tools of its kind have."""
+        """The inputs in the order of the dialog, with those that all tools of its kind have."""
         return self.inputs
 
     @property
@@ -230,7 +228,7 @@ class Tool:
 class PointTool(Tool):
     """A tool that writes classified files with a value or a class of each point."""
 
-    step: type[PointStep] = PointStep  # its fields are the sets, and the inputs by their names
+    step: type[PointStep] = PointStep  # its fields are the sets, and the inputs by name
     output_label: str = ""
     output_help: str = ""
     shows: str = "classes"  # how QGIS shows the output: "classes", "key points" or "heights"
@@ -238,12 +236,12 @@ class PointTool(Tool):
 
     @property
     def all_inputs(self) -> tuple[Input, ...]:
-        """The points, the further inputs, and the CRS."""
+        """The points, the other inputs, and the CRS."""
         return POINTS, *self.inputs, CRS
 
     @property
     def all_outputs(self) -> tuple[Output, ...]:
-        """The classified file, or the folder for those of a survey."""
+        """The classified file, or the folder for the files of a survey."""
         return (replace(CLOUD_OUTPUT, help=self.output_help, label=self.output_label),)
 
     def steps(
@@ -252,31 +250,32 @@ class PointTool(Tool):
         inputs: Mapping[str, object],
         outputs: Mapping[str, Path],
     ) -> tuple[Step, ...]:
-        """Return its step, given its sets, and inputs and outputs by their names."""
+        """Return the step of the tool, from its sets, and inputs and outputs by name."""
         names = {type(default): name for name, default in vars(self.step()).items()}
         fields = {names[type(values)]: values for values in sets if type(values) in names}
-        given = (declared.name for declared in self.inputs if declared.name in inputs)
-        return (self.step(**fields, **{name: inputs[name] for name in given}),)
+        names_given = (declared.name for declared in self.inputs if declared.name in inputs)
+        return (self.step(**fields, **{name: inputs[name] for name in names_given}),)
 
 
-def _nothing(*given: object, **named: object) -> Any:
+def _nothing(*arguments: object, **named: object) -> Any:
     """Do nothing."""
 
 
 @dataclass(frozen=True)
 class FileTool(Tool):
-    """A tool that reads files and writes others, or only tells what it finds."""
+    """A tool that reads files and writes others, or only reports figures."""
 
-    # Gets inputs and outputs by their names, None for those that are not given, the sets by the
-    # types of its defaults, and `progress`; returns what to tell: a dataclass or an object with
-    # `as_dict`, with `text` (a sentence) or `lines` (figures, which are always printed).
+    # Its arguments are inputs and outputs by name, None for those that the user leaves out, the
+    # sets, recognised by the types of their defaults, and `progress`. It returns a summary: a
+    # dataclass or an object with `as_dict`, with `text` (a sentence) or `lines()` (figures, which
+    # are always printed).
     work: Callable[..., Any] = _nothing
     outputs: tuple[Output, ...] = ()
-    # Says what a user of the command did not give, from the inputs and the sets; empty for nothing.
+    # Returns, from the inputs and the sets, what the command line lacks; empty if it is complete.
     lacks: Callable[[Mapping[str, object], Sequence[ParameterSet]], str] = lambda inputs, sets: ""
-    # Further flags of parameters, which take one value.
+    # Other flags for parameters with several values, which take one value.
     flags: Mapping[str, str] = field(default_factory=dict)
-    always_tells: bool = False  # whether the command prints the text, not only with --verbose
+    always_tells: bool = False  # whether the command prints the text also without --verbose
 
     @property
     def all_outputs(self) -> tuple[Output, ...]:
@@ -288,17 +287,17 @@ class FileTool(Tool):
 class MapTool(Tool):
     """A tool that makes rasters and contour lines of points, in a run of several steps."""
 
-    # Returns the steps, given sets, and inputs and outputs by their names, none of which need be
-    # there but the points.
+    # Returns the steps. Its arguments are the sets, and inputs and outputs by name, none of which
+    # is needed except the points.
     steps: Callable[..., tuple[Step, ...]] = _nothing
-    # Without the points that it writes; asked for anew, since rows of rasters can be added.
+    # Without the written points; a function, since rows of rasters can be added.
     outputs: Callable[[], tuple[Output, ...]] = tuple
     points: Input = POINTS  # in the dialog
-    # In the order of the dialog, if it is not that of the command; outputs with points.
+    # In the order of the dialog if it differs from that of the command; outputs with the points.
     dialog_inputs: tuple[Input, ...] = ()
     dialog_outputs: Callable[[], tuple[Output, ...]] = tuple
     method: str = ""  # the ground filter of the dialog, if it has only one
-    # Whether it finds the ground, by any filter, and writes points; otherwise they are classified.
+    # Whether it finds the ground by a filter and writes points; otherwise it reads classified ones.
     classifies: bool = False
 
     @property
@@ -308,7 +307,7 @@ class MapTool(Tool):
 
     @property
     def all_inputs(self) -> tuple[Input, ...]:
-        """The points, their CRS, and the further inputs, in the order of the dialog."""
+        """The points, their CRS, and the other inputs, in the order of the dialog."""
         return self.points, CRS, *(self.dialog_inputs or self.inputs)
 
     @property
@@ -319,17 +318,17 @@ class MapTool(Tool):
 
 @dataclass(frozen=True)
 class Composition(Tool):
-    """Tools that work one after another, by one of several tables, and fill one folder."""
+    """Tools that work one after another and fill one folder, as one of several tables says."""
 
-    # Gets the sources, the folder, the name of a table, the sets, the inputs by their names,
-    # `progress` and `workers`; returns what `FileTool.work` does, with `failures` of files.
+    # Its arguments are the sources, the folder, the name of a table, the sets, the inputs by name,
+    # `progress` and `workers`. It returns a summary as `FileTool.work` does, with `failures`.
     work: Callable[..., Any] = _nothing
-    tables: Mapping[str, Any] = field(default_factory=dict)  # by name; `about` is a sentence each
-    chosen: str = ""  # the argument for the name of a table
-    default: str = ""  # of it, in the function
+    tables: Mapping[str, Any] = field(default_factory=dict)  # by name; `about` is a sentence
+    chosen: str = ""  # name of the argument that chooses a table
+    default: str = ""  # the default of this argument
     chosen_help: str = ""
     outputs: tuple[Output, ...] = ()
-    # In the dialog, which can also make single outputs.
+    # In the dialog, which can also write single outputs.
     dialog_inputs: tuple[Input, ...] = ()
     dialog_outputs: Callable[[], tuple[Output, ...]] = tuple
 

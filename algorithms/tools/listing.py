@@ -8,8 +8,8 @@ from typing import NamedTuple
 class Listed(NamedTuple):
     """A tool in the list."""
 
-    file: str  # here; also the name of its function in the library
-    line: str = ""  # a sentence: in the list, as the tooltip, and the first of each help
+    file: str  # in this folder; for tools for points also the name of the function in the library
+    line: str = ""  # a sentence: in the list, the tooltip, and the first line of the help
     tool: str = "TOOL"  # the name of the declaration in the file
 
 
@@ -86,5 +86,5 @@ COMPOSITIONS = {
 
 
 def listed(command: str) -> Listed:
-    """Return a tool of any kind in the list, given its command."""
+    """Return the entry of a tool of any kind, given its command."""
     return {**POINT_TOOLS, **FILE_TOOLS, **MAP_TOOLS, **COMPOSITIONS}[command]

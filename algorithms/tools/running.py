@@ -38,15 +38,15 @@ def run(
     progress: Progress = SILENT,
     workers: Workers | None = None,
 ) -> Any:
-    """Let a tool work, given inputs and outputs by their names, and return what it found; `workers`
-    are those of many files.
+    """Run a tool with inputs and outputs by name, and return its summary; `workers` do the work on
+    many files.
     """
     paths = {name: Path(path) for name, path in outputs.items() if path}
     if isinstance(tool, FileTool):
         return _run_on_files(tool, inputs, paths, sets, progress)
     if isinstance(tool, (PointTool, MapTool)):
         return _run_on_points(tool, inputs, paths, sets, progress, workers)
-    raise TypeError(f"{tool.command} has no run of its own.")
+    raise TypeError(f"{tool.command} cannot be run by itself: it runs other tools.")
 
 
 def _run_on_points(
@@ -57,55 +57,50 @@ def _run_on_points(
     progress: Progress,
     workers: Workers | None,
 ) -> Any:
-    """Let the steps of a tool work, and then the tools that draw further outputs of theirs; all but
-    the folder of many files are written, or none.
+    """Run the steps of a tool, and then the tools that draw more outputs from its rasters; either
+    all outputs are written, except the folder of many files, or none.
     """
     points = Inputs(inputs["input"]).read_as(inputs.get("crs"), TileInput.among(sets).recursive)
     sets = [values for values in sets if points.is_survey or not values.only_for_many]
     check_outputs(_kinds(tool, points, outputs), points)
-    given, progress = _with_found(tool, {**inputs, "input": points}, sets, progress)
-    drawn = [output for output in tool.all_outputs if output.drawn_by and output.name in outputs]
-    working, *drawing = progress.shares(9.0, *(1.0 for _ in drawn)) if drawn else [progress]
+    inputs, progress = _with_found_inputs(tool, {**inputs, "input": points}, sets, progress)
+    drawings = [output for output in tool.all_outputs if output.drawn_by and output.name in outputs]
+    working, *drawing = progress.shares(9.0, *(1.0 for _ in drawings)) if drawings else [progress]
     with contextlib.ExitStack() as opened:
-        own, told = dict(outputs), {}
-        # What nobody asks for, but others need, is a temporary file.
-        needed = {output.drawn_of: f"{output.drawn_of}.tif" for output in drawn}
+        paths, summaries = dict(outputs), {}
+        # Files that the user does not ask for, but steps or drawings need, are temporary.
+        needed = {output.drawn_of: f"{output.drawn_of}.tif" for output in drawings}
         if tool.writes_points:
             needed["output"] = "cloud.las"
-        for name in needed.keys() - own.keys():
-            folder = opened.enter_context(temporary_folder(_folder_among(outputs)))
-            own[name] = folder / needed[name]
-        for output in drawn:
-            del own[output.name]
-        steps = tool.steps(sets, given, own)
-        work = Run(steps, TileOutput.among(sets), Resources.among(sets))
-        target = own.get("output")
-        vpc = own.get("vpc") or (target and target / tool.list_name)
-        # A virtual raster can only be read when its rasters have their names.
+        folders = [path.parent for path in outputs.values() if path.parent.is_dir()]
+        beside = (*folders, Path(tempfile.gettempdir()))[0]
+        for name in needed.keys() - paths.keys():
+            paths[name] = opened.enter_context(temporary_folder(beside)) / needed[name]
+        for output in drawings:
+            del paths[output.name]
+        steps = tool.steps(sets, inputs, paths)
+        run_of_steps = Run(steps, TileOutput.among(sets), Resources.among(sets))
+        target = paths.get("output")
+        vpc = paths.get("vpc") or (target and target / tool.list_name)
+        # A virtual raster can be read only after its rasters have been moved to their places.
         written = [output for step in steps for output in step.outputs]
         virtual = {path: virtual_of(path) for kind, path in written if kind == "raster set"}
         pending = None if virtual else opened.enter_context(Outputs())
-        done = work.work(points, target, working, workers, vpc, pending)
-        for output, part in zip(drawn, drawing):
-            path, lines = own[output.drawn_of], {"output": outputs[output.name]}
+        summary = run_of_steps.work(points, target, working, workers, vpc, pending)
+        for output, part in zip(drawings, drawing):
+            path, lines = paths[output.drawn_of], {"output": outputs[output.name]}
             source = virtual[path] if pending is None else pending.waiting(path)
             drawing_tool = file_tool(output.drawn_by)
-            told[output.name] = _run_on_files(
+            summaries[output.name] = _run_on_files(
                 drawing_tool, {"source": source}, lines, sets, part, pending
             )
-    if told:
-        object.__setattr__(done, "drawn", told)  # it is a frozen dataclass
-    return done
-
-
-def _folder_among(outputs: Mapping[str, Path]) -> Path:
-    """Return the first folder of outputs that is there."""
-    folders = (path.parent for path in outputs.values())
-    return next((folder for folder in folders if folder.is_dir()), Path(tempfile.gettempdir()))
+    if summaries:
+        object.__setattr__(summary, "drawn", summaries)  # it is a frozen dataclass
+    return summary
 
 
 def _kinds(tool: Tool, points: Inputs, outputs: Mapping[str, Path]) -> Iterator[tuple[str, Path]]:
-    """Yield the kinds and paths of the outputs, but for those in a folder that the run makes."""
+    """Yield the kinds and paths of the outputs, except of those in a folder that the run makes."""
     kinds = {output.name: output.kind for output in tool.all_outputs}
     kinds.update(output=points.output_kind, vpc="list")
     folder = outputs.get("output") if points.output_kind == "folder" else None
@@ -116,16 +111,15 @@ def _kinds(tool: Tool, points: Inputs, outputs: Mapping[str, Path]) -> Iterator[
             yield kinds[name], path
 
 
-def _with_found(
+def _with_found_inputs(
     tool: Tool, inputs: dict[str, Any], sets: Sequence[ParameterSet], progress: Progress
 ) -> tuple[dict[str, Any], Progress]:
-    """Return the inputs with those that are found first, and what is left of the progress."""
-    # To find them can take minutes.
+    """Return the inputs with the values in place of `ToFind`, and the rest of the progress."""
     for declared in tool.inputs:
         value = inputs.get(declared.name)
         if isinstance(value, ToFind) and declared.found is not None:
             ground, part = GroundClasses.among(sets), progress.part(0.0, 0.4)
-            found = declared.found(inputs["input"], ground, part)
+            found = declared.found(inputs["input"], ground, part)  # this can take minutes
             if value.given is not None:
                 found = value.given.with_water(found, part)
             inputs, progress = {**inputs, declared.name: found}, progress.part(0.4, 1.0)
@@ -140,15 +134,15 @@ def _run_on_files(
     progress: Progress,
     pending: Outputs | None = None,
 ) -> Any:
-    """Check the outputs, and let the tool write them: all of them or none, together with those that
-    are `pending`; return what it found.
+    """Check the outputs, run the tool, and return its summary; either all outputs are written,
+    together with those that are `pending`, or none.
     """
-    given: dict[str, Any] = {declared.name: None for declared in tool.inputs}
-    given.update({output.name: None for output in tool.outputs}, **inputs)
+    arguments: dict[str, Any] = {declared.name: None for declared in tool.inputs}
+    arguments.update({output.name: None for output in tool.outputs}, **inputs)
     for declared in tool.inputs:
         if declared.kind == "clouds":
-            points = Inputs(given[declared.name] or ())
-            given[declared.name] = points.read_as(given.pop("crs", None))
+            points = Inputs(arguments[declared.name] or ())
+            arguments[declared.name] = points.read_as(arguments.pop("crs", None))
     wanted = [
         (output, paths[output.name], output.paths(paths[output.name], sets))
         for output in tool.outputs
@@ -163,30 +157,30 @@ def _run_on_files(
         check_outputs(kinds, _sources(tool, inputs))
         for output, _, files in wanted:
             places = {name: place(pending, output.file_kind, file) for name, file in files.items()}
-            given[output.name] = places if output.files else places[output.name]
-        found = tool.work(**given, **_by_name(tool, sets), progress=progress)
-        progress(1.0)  # the last moment to cancel: after this the files are there
-    # What it says of an output is not the temporary path.
-    told = {output.name: str(path) for output, path, _ in wanted if hasattr(found, output.name)}
-    return dataclasses.replace(found, **told) if told else found
+            arguments[output.name] = places if output.files else places[output.name]
+        summary = tool.work(**arguments, **_by_argument(tool, sets), progress=progress)
+        progress(1.0)  # the last moment to cancel: after this the files get their names
+    # The summary names the outputs of the user, not the temporary files.
+    named = {output.name: str(path) for output, path, _ in wanted if hasattr(summary, output.name)}
+    return dataclasses.replace(summary, **named) if named else summary
 
 
 def _sources(tool: FileTool, inputs: Mapping[str, Any]) -> list[Path]:
-    """Return the files and folders that are read, which no output may be."""
+    """Return the files and folders that the tool reads, which no output may replace."""
     sources: list[Path] = []
     for declared in tool.inputs:
         value = inputs.get(declared.name)
         if declared.kind == "clouds":
             sources += value or ()
-        elif isinstance(value, MemoryRaster):
+        elif not value or declared.kind not in _FILES or isinstance(value, MemoryRaster):
             continue
-        elif value and declared.kind in _FILES and not is_address(str(value)):
+        elif not is_address(str(value)):
             sources.append(Path(value))
     return sources
 
 
-def _by_name(tool: FileTool, sets: Sequence[ParameterSet]) -> dict[str, ParameterSet]:
-    """Return the sets that the work takes, by the names of its arguments."""
+def _by_argument(tool: FileTool, sets: Sequence[ParameterSet]) -> dict[str, ParameterSet]:
+    """Return the sets that are arguments of `work`, by the names of these arguments."""
     arguments = inspect.signature(tool.work).parameters.values()
     return {
         argument.name: values
