@@ -50,7 +50,10 @@ class Described:
     @property
     def section(self) -> str:
         """The lines of the documentation."""
-        text = _filled(self.help, "    ")
+        text = textwrap.fill(
+            self.help, _WIDTH, initial_indent="    ", subsequent_indent="    ",
+            break_on_hyphens=False,
+        )  # fmt: skip
         return f"{self.parameter.name} : {self.words}\n{text}"
 
 
@@ -181,13 +184,6 @@ class Function:
         function.__doc__ = self.documentation
         function.__signature__ = signature  # type: ignore[attr-defined]
         return function
-
-
-def _filled(text: str, indent: str = "") -> str:
-    """Return a paragraph in lines that terminals can show."""
-    return textwrap.fill(
-        text, _WIDTH, initial_indent=indent, subsequent_indent=indent, break_on_hyphens=False
-    )
 
 
 def _suggestion(name: str, names: Iterable[str]) -> str:

@@ -17,7 +17,7 @@ from ..engine.memory import Resources
 from ..engine.options import TileInput, TileOutput
 from ..survey.files import Inputs
 from ..tools import composition, file_tool, map_tool, point_tool
-from ..tools.declaration import POINTS, FileTool, Input, Output, ToFind, Tool
+from ..tools.declaration import POINTS, FileTool, Input, ToFind, Tool
 from ..tools.input_groups import GROUPS
 from ..tools.listing import COMPOSITIONS, FILE_TOOLS, MAP_TOOLS, POINT_TOOLS
 from . import arguments, tool_commands
@@ -40,7 +40,7 @@ from .raster_inputs import heights_of
 
 CLASSIFIED = replace(arguments.SOURCES, help=f"{POINTS.help} {arguments.SOURCES.help}")
 _REACHES = (*arguments.REMOTE, arguments.SCHEDULER, arguments.PROGRESS)
-# What reads the inputs that have several arguments.
+# Functions that read the inputs with several arguments.
 _READERS: dict[str, Callable[[SimpleNamespace], object]] = {
     "area": area_of,
     "checkpoints": checkpoints_of,
@@ -61,7 +61,7 @@ def of_tool(command: str) -> Function:
 
 @cache
 def declared(name: str) -> Function:
-    """Return what is declared of a function, given its name."""
+    """Return the declaration of a function, given its name."""
     return of_tool(tool_commands()[name])
 
 
@@ -98,13 +98,9 @@ def _of_file_tool(command: str) -> Function:
 
 
 def _result_of(tool: FileTool) -> type | None:
-    """Return the class of what a tool tells, which its work names."""
+    """Return the class of the summary of a tool, which its work is annotated with."""
     name = inspect.signature(tool.work).return_annotation
     return getattr(sys.modules[tool.work.__module__], str(name), None)
-
-
-def _name_of(output: Output) -> str:
-    return output.option.replace("-", "_")
 
 
 def arguments_of(declared: Input) -> tuple[Argument, ...]:
@@ -126,7 +122,7 @@ def arguments_of(declared: Input) -> tuple[Argument, ...]:
 
 
 def input_of(declared: Input, values: SimpleNamespace) -> object:
-    """Return an input of a tool, as its work or its run gets it."""
+    """Return the value of an input of a tool from the arguments of its function."""
     can_be_found = declared.found is not None or declared.kind == "constraints"
     is_found = can_be_found and is_automatic(values.water)
     if is_found and declared.found is None:
@@ -154,7 +150,7 @@ def input_of(declared: Input, values: SimpleNamespace) -> object:
 
 
 def _of_point_tool(command: str) -> Function:
-    """Return the function of a tool that writes classified files anew."""
+    """Return the function of a tool that writes classified files again."""
     tool = point_tool(command)
     return Function(
         POINT_TOOLS[command].file,
@@ -171,7 +167,7 @@ def _of_point_tool(command: str) -> Function:
 
 
 def _run_on_points(tool: Tool, values: SimpleNamespace, sets: Sequence[ParameterSet]) -> object:
-    """Let a tool work on points."""
+    """Run a tool on points."""
     from ..tools.running import run
 
     outputs = _outputs_of(tool, values)
@@ -247,6 +243,6 @@ def _of_composition(command: str) -> Function:
 
 def _outputs_of(tool: Tool, values: SimpleNamespace) -> dict[str, Path | None]:
     """Return the paths of the outputs of a tool, by their names, and of the points."""
-    names = {output.name: _name_of(output) for output in tool.all_outputs}
+    names = {output.name: output.option.replace("-", "_") for output in tool.all_outputs}
     names = {"output": "output", "vpc": "vpc", **names}
     return {name: path_of(getattr(values, option, None)) for name, option in names.items()}

@@ -20,12 +20,12 @@ from ..relief.local_relief import local_trend, reach_of
 from ..survey.feature_files import Feature, Layer, feature_writer
 from .declaration import FileTool, Input, Output
 
-# Lines of a map, about: it is easy to read then.
+# About as many lines make a map that is easy to read.
 _LINES = 20
 _STEPS = (1.0, 2.0, 5.0, 10.0)
 # A smaller interval, in metres, would show noise.
 _LEAST = 0.2
-# So many lines cannot be told apart; with more, memory would not be bounded.
+# Most heights of lines: nobody could distinguish more, and memory is bounded.
 _MOST_LEVELS = 20_000
 # Every fifth line is drawn thick, and has its height as a label.
 INDEX = 5
@@ -164,7 +164,7 @@ def _lines_of(
 ) -> Iterator[ContourLine]:
     """Yield the lines of a raster."""
     (count, columns), rows = raster.whole, _rows_of(raster)
-    (x, a, b, y, c, d), unit = raster.geotransform, raster.frame.horizontal_unit
+    (_, a, b, _, c, d), unit = raster.geotransform, raster.frame.horizontal_unit
     cells = math.hypot(b, d) * unit, math.hypot(a, c) * unit
     sigma = how.contour_smoothing / 2 / cells[0], how.contour_smoothing / 2 / cells[1]
     smooths = max(sigma) > _LEAST_SIGMA
@@ -177,12 +177,18 @@ def _lines_of(
         if smooths:
             heights = np.where(_is_level(heights, half), heights, local_trend(heights, sigma))
         for line in lines.add(heights[start - first : end - first], start, end == count):
-            row, column = (line.places + 0.5).T
-            corners = np.column_stack((x + a * column + b * row, y + c * column + d * row))
+            corners = corners_of(line.places, raster)
             if not _is_speck(line, corners * unit, how.contour_min_length):
                 height = float(f"{line.level * interval:.9g}")
                 yield ContourLine(height, line.level % INDEX == 0, corners)
         progress(end / count)
+
+
+def corners_of(places: np.ndarray, raster: Raster) -> np.ndarray:
+    """Return x and y of rows and columns of a raster, (n, 2); the centres of cells are whole."""
+    x, a, b, y, c, d = raster.geotransform
+    row, column = places.T + 0.5
+    return np.column_stack((x + a * column + b * row, y + c * column + d * row))
 
 
 def _is_level(heights: np.ndarray, half: int) -> np.ndarray:

@@ -67,8 +67,8 @@ class ClassifyAboveGround(PointStep):
     summary_type = AboveGroundSummary
 
     def marks(self, part: PointCloud, counts: GroundCounts) -> Marks:
-        """Return the points that are ground or stand on it, not those with a meaning, such as
-        water, wires or noise, and which of them can change.
+        """Return the ground points and those on it, without classes such as water, wires or noise,
+        and which of them can change.
         """
         ground = self.ground.of(part, counts)
         roads = self.ground.points_of(part, ROADS) & ~ground
@@ -90,7 +90,7 @@ class ClassifyAboveGround(PointStep):
             raise outside("the area", self.area.bounds, "the files", box)
 
     def tell(self, counts: GroundCounts, path: Path, progress: Progress) -> None:
-        """Refuse a file without ground; tell of one in which nothing can change."""
+        """Refuse a file without ground; warn of a file in which no point can change."""
         self.ground.check(counts, path)
         if not counts.classes[list(self.parameters.changing)].any():
             progress.warning(

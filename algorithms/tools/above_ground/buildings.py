@@ -1,9 +1,9 @@
 """Buildings among the points above the ground: roofs, and what belongs to them.
 
-A roof is made of planes of some size, and a laser pulse meets it once. Leaves and branches lie on
-no plane, and a pulse meets several of them. Both are asked of the neighbours of each point, and
-then of each face as a whole: a few points of a crown lie on a plane by chance, and many sensors
-tell several returns of few pulses there, but the mean of a face is sure.
+A roof consists of planes of some size, and a laser pulse has a single return from it. Leaves and
+branches lie on no plane, and a pulse has several returns from them. Both are tested for the
+neighbours of each point, and then for each face as a whole: a few points of a crown lie on a plane
+by chance, and many sensors record several returns of few pulses, but the mean of a face is sure.
 
 The parts of the method are known from others: planes and single returns (LAStools lasclassify,
 TerraScan, LiDAR360), a least area (all of them), growing from certain roofs (GRASS
@@ -26,7 +26,7 @@ from ...grids.morphology import closing, dilation, erosion, opening
 from ...grids.planes import plane_slopes
 
 # The highest point of each square of this side, in metres, stands for the roof there. More points
-# would tell more of the noise of the sensor than of the roof.
+# would show the noise of the sensor rather than the roof.
 _NODE = 0.5
 _NEIGHBOURS = 12  # nearest nodes that are the surroundings of a node
 _REACH = 2.5  # their largest distance, m
@@ -44,7 +44,7 @@ _SHARE_WITHOUT_RETURNS = 0.6  # the least share on the plane where there are no 
 _LEAST_EVIDENCE = 0.1
 _RETURNS = 0.6
 _LEAVES = 0.6  # nodes with a smaller share of their surroundings on a plane are leaves
-_LEAST_TOLD = 0.05  # share of leaves with several returns from which returns tell something
+_LEAST_TOLD = 0.05  # least share of leaves with several returns for these to be evidence
 _DEPTH = 1.5  # depth under all nodes of the cell from which a point was seen through leaves, m
 _BEND = 15.0  # largest angle between planes of nodes of a face, degrees: a crown curves more
 _JOIN = 5.0  # distance from a face up to which smaller planes are roof as well, m
@@ -62,7 +62,7 @@ _CELL_SPACINGS = 1.2
 _COMPARED = 4
 # Nearest neighbours, of which two make a plane with a point that is tried.
 _TRIED = 8
-# Two neighbours in almost one direction do not fix a plane: least sine of their angle.
+# Least sine of the angle between two neighbours: in almost one direction they define no plane.
 _LEAST_SINE = 0.3
 # Points whose planes are sought together, so that arrays stay in the processor's cache.
 _POINTS_A_PART = 1 << 12
@@ -129,10 +129,8 @@ class Buildings:
         through = _seen_through(points.z, high, cells)[cell]
         rise, plane, roof = self._faces(places, several[high], through, apart, progress)
         # Without gaps, and without what is narrower than a roof.
-        covered, radius = (
-            closing(_holding(cells, cell[roof]), _CLOSING),
-            self.width / 2 / cells.size,
-        )
+        covered = closing(_holding(cells, cell[roof]), _CLOSING)
+        radius = self.width / 2 / cells.size
         if radius >= 1.0:
             covered = opening(covered.view(np.uint8), radius).view(bool)
         roof &= dilation(covered, _CLOSING).ravel()[cell]
@@ -229,8 +227,8 @@ def _belong(
     points: Points, nodes: np.ndarray, rise: np.ndarray, inside: np.ndarray, several: np.ndarray
 ) -> np.ndarray:
     """Return which points near roofs belong to them, given the nodes (n, 3) and their planes."""
-    # They do if they lie on the plane of a near node, below it beside the roof or under it, or
-    # above it with no gap to look through, as chimneys do and branches do not.
+    # Points belong to a roof if they lie on the plane of a near node, below it beside the roof, or
+    # above it and of pulses with a single return, as on chimneys and not on branches.
     from scipy.spatial import cKDTree
 
     places = np.column_stack([points.x, points.y])
@@ -304,7 +302,7 @@ def _planes(
 def _fitted(
     x: np.ndarray, y: np.ndarray, z: np.ndarray, on: np.ndarray, east: np.ndarray, north: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return planes through points by least squares; the given slopes where these are in line."""
+    """Return planes of least squares through points; with the slopes given if these are in line."""
     weight, count = on.astype(np.float64), np.maximum(on.sum(axis=0), 1)
     mean_x, mean_y, mean_z = ((weight * axis).sum(axis=0) / count for axis in (x, y, z))
     dx, dy, dz = x - mean_x, y - mean_y, z - mean_z

@@ -169,20 +169,21 @@ def classes_above_ground(
     """
     heights = height_above_ground(points, ground, progress.part(0.0, 0.4))
     classes = by_height(heights, parameters)
-    left = ~ground
+    undecided = ~ground
     if parameters.mark_high_noise:
-        high = HighGroups().find(points) & left
+        high = HighGroups().find(points) & undecided
         classes[high] = HIGH_NOISE
-        left &= ~high
+        undecided &= ~high
     progress(0.45)
     if parameters.mark_bridges:
-        decks = bridge_decks(points, ground, is_cleared=True) & left
+        decks = bridge_decks(points, ground, is_cleared=True) & undecided
         classes[decks] = BRIDGE_DECK
-        left &= ~decks
+        undecided &= ~decks
     progress(0.6)
     if parameters.buildings:
         rule = Buildings(parameters.building_height, parameters.building_area)
-        classes[rule.find(points, heights, left, several, progress.part(0.6, 1.0))] = BUILDING
+        part = progress.part(0.6, 1.0)
+        classes[rule.find(points, heights, undecided, several, part)] = BUILDING
     classes[ground] = 2
     return classes
 

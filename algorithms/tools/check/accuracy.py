@@ -19,7 +19,7 @@ _STANDARD = "ASPRS Positional Accuracy Standards for Digital Geospatial Data, Ed
 
 @dataclass(frozen=True)
 class Accuracy(ParameterSet):
-    """What the accuracy is compared with."""
+    """The accuracy class to test, and the error of the checkpoints."""
 
     accuracy_class: float | None = parameter(
         None,
@@ -51,7 +51,7 @@ class Figures:
 
     count: int  # at least one
     rmse: float  # root mean square
-    total_rmse: float  # the same with the error of the checkpoints
+    total_rmse: float  # root mean square with the error of the checkpoints
     mean: float
     median: float
     standard_deviation: float  # 0 for one error
@@ -94,26 +94,26 @@ def statement(nva: Figures | None, vva: Figures | None, accuracy_class: float | 
     if nva is None:
         return (
             f"No checkpoint lies on land without vegetation: this is no test by {_STANDARD}."
-            f"{_found('Vegetated', 'VVA', vva)}"
+            f"{_accuracy('Vegetated', 'VVA', vva)}"
         )
     few = nva.count < NEEDED
-    found = _found("Non-Vegetated", "NVA", nva) + _found("Vegetated", "VVA", vva)
+    accuracies = _accuracy("Non-Vegetated", "NVA", nva) + _accuracy("Vegetated", "VVA", vva)
     reduced = (
         f" Although the Standards call for a minimum of thirty ({NEEDED}) checkpoints, this test"
         f" was performed using ONLY {nva.count} checkpoints."
     )
     tested = f"This data set was tested as required by {_STANDARD}.{reduced if few else ''}"
     if accuracy_class is None:
-        return f"{tested}{found}"
+        return f"{tested}{accuracies}"
     named = f"a {_cm(accuracy_class)} cm RMSEV Vertical Accuracy Class"
     if nva.total_rmse > accuracy_class:
-        return f"{tested} It does not meet {named}.{found}"
+        return f"{tested} It does not meet {named}.{accuracies}"
     if few:
-        return f"{tested} This data set was produced to meet {named}.{found}"
-    return f"This data set was tested to meet {_STANDARD} for {named}.{found}"
+        return f"{tested} This data set was produced to meet {named}.{accuracies}"
+    return f"This data set was tested to meet {_STANDARD} for {named}.{accuracies}"
 
 
-def _found(land: str, short: str, figures: Figures | None) -> str:
+def _accuracy(land: str, short: str, figures: Figures | None) -> str:
     if figures is None:
         return ""
     few = " using the reduced number of checkpoints" if figures.count < NEEDED else ""
@@ -124,5 +124,5 @@ def _found(land: str, short: str, figures: Figures | None) -> str:
 
 
 def _cm(metres: float) -> str:
-    """Return metres as centimetres, with one digit if it is needed."""
+    """Return metres as centimetres, with a decimal if it is not 0."""
     return f"{100.0 * metres:.1f}".removesuffix(".0")

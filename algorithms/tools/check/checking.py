@@ -33,7 +33,7 @@ from .residuals import Residuals, layer_of, residuals_of, write_table
 from .results import COUNTED, LOW_CONFIDENCE, NOT_STATED, REASONS, Check, Expectation
 from .survey_ground import SurveyGround
 
-# How many of the largest errors are named.
+# Number of the largest errors that the result names.
 _LARGEST = 5
 
 
@@ -89,7 +89,7 @@ def check_points(
     progress: Progress = SILENT,
 ) -> Check:
     """Compare the ground points of classified files, and a terrain model, with checkpoints or with
-    points that are held out, and write what is found.
+    held-out points, and write page, table and layer.
     """
     share = options.hold_out
     if checkpoints is None and share is None:
@@ -102,34 +102,34 @@ def check_points(
         points = sources
     else:
         points = SurveyGround.of(sources, ground, progress.part(0.0, 0.05))
-    middle, found, left = 0.95 if share is None else 0.5, None, None
+    middle, errors, held_out = 0.95 if share is None else 0.5, None, None
     if checkpoints is not None:
-        found = residuals_of(
+        errors = residuals_of(
             points, checkpoints, (dtm, confidence, expected_error), low_confidence or (),
             tuple(vegetated or ()), options.max_edge, options.min_confidence,
             progress.part(0.05, middle),
         )  # fmt: skip
     if share is not None:
         part = progress.part(0.05 if checkpoints is None else middle, 0.95)
-        left = hold_out(points, share, options.max_edge, part)
-    check = _check_of(found, accuracy, left)
+        held_out = hold_out(points, share, options.max_edge, part)
+    check = _check_of(errors, accuracy, held_out)
     if check.doubt:
         progress.warning(f"{check.doubt} {NOT_STATED}")
-    if residuals and found is not None:
-        layer, features = layer_of(found, points.survey.crs)
+    if residuals and errors is not None:
+        layer, features = layer_of(errors, points.survey.crs)
         feature_writer(residuals)(residuals, features, layer, progress)
-    if table and found is not None:
-        write_table(table, found)
+    if table and errors is not None:
+        write_table(table, errors)
     if report:
-        report.write_text(checkpoint_html(check, found, points.survey), encoding="utf-8")
+        report.write_text(checkpoint_html(check, errors, points.survey), encoding="utf-8")
     return check
 
 
-def _check_of(found: Residuals | None, accuracy: Accuracy, left: HoldOut | None) -> Check:
-    """Return the figures of residuals."""
+def _check_of(found: Residuals | None, accuracy: Accuracy, held_out: HoldOut | None) -> Check:
+    """Return the figures of the errors at checkpoints and at held-out points."""
     goal = accuracy.accuracy_class
     if found is None:
-        return Check(accuracy_class=goal, hold_out=left)
+        return Check(accuracy_class=goal, hold_out=held_out)
     counted, count = found.counted, len(found.names)
     others: dict[str, list[str]] = {}
     for name, state in zip(found.names, found.states):
@@ -158,7 +158,7 @@ def _check_of(found: Residuals | None, accuracy: Accuracy, left: HoldOut | None)
     order = np.argsort(np.where(counted, -np.abs(found.errors), np.inf), kind="stable")
     dtm = None if np.isnan(found.dtm_errors).all() else found.dtm_errors
     of_dtm = NOT_STATED if dtm_doubt else statement(dtm_nva, dtm_vva, goal)
-    # Most errors lie well within the colours.
+    # The colours of maps end at twice the error that 95 % do not exceed.
     most = float(np.percentile(np.abs(found.errors[counted]), 95.0))
     return Check(
         checkpoint_count=count,
@@ -182,7 +182,7 @@ def _check_of(found: Residuals | None, accuracy: Accuracy, left: HoldOut | None)
         expected=None if doubt or dtm_doubt else Expectation.of(
             np.where(counted, found.errors if dtm is None else dtm, np.nan), found.expected
         ),
-        hold_out=left,
+        hold_out=held_out,
     )  # fmt: skip
 
 

@@ -15,7 +15,7 @@ from ...survey.shapes import Geometry, Place, Shapes, located
 
 _MOST = 100_000
 _UNIT_NAMES: dict[float | None, str] = {1.0: "metres", FOOT: "feet", US_FOOT: "US survey feet"}
-# Where heights stand, the heights, and metres in a unit of them if it is known.
+# The name of a column, its heights, and metres in a unit of them if it is known.
 OtherHeights = Tuple[str, np.ndarray, Optional[float]]
 
 
@@ -28,14 +28,14 @@ class Checkpoints(Geometry):
     places: Sequence[np.ndarray]
     names: tuple[str, ...]  # their names
     covers: tuple[str, ...]  # the land cover of each; empty if it is not known
-    # What each is used for, such as NVA, VVA or Control; empty if it is not known
+    # The use of each point, such as NVA, VVA or Control; empty if it is not known
     types: tuple[str, ...] = ()
-    notes: tuple[str, ...] = ()  # what their reader warns of; `located` passes it on
-    # Metres in a unit of x and y, and of z, if the names of the columns state these
+    notes: tuple[str, ...] = ()  # warnings of the reader, which `located` passes on
+    # Metres in a unit of x and y, and of z, if the names of the columns state the units
     units: tuple[float | None, float | None] = (None, None)
     is_ordered: bool = True  # whether it is known which column is x
-    # All heights that the points may have: where they stand, numpy.ndarray of float64, shape (n,),
-    # and their unit; in the unit of the points after `located`
+    # All columns that may hold the heights: their name, float64 (n,), and their unit; in the unit
+    # of the points after `located`
     others: tuple[OtherHeights, ...] = ()
 
     def __post_init__(self) -> None:
@@ -69,7 +69,7 @@ class Checkpoints(Geometry):
         return np.concatenate(self.places)
 
     def located(self, place: Place, progress: Progress = SILENT, near: float = 0.0) -> Checkpoints:
-        """Return them in the CRS and units of the points."""
+        """Return the checkpoints in the CRS and units of the points."""
         for note in self.notes:
             progress.warning(note)
         given = self._in_units(place, progress)
@@ -79,18 +79,18 @@ class Checkpoints(Geometry):
         return replace(given, places=found, notes=(), units=(None, None), is_ordered=True)
 
     def with_heights(self, heights: np.ndarray) -> Checkpoints:
-        """Return them with other heights, shape (n,)."""
+        """Return the checkpoints with other heights, shape (n,)."""
         return self._moved(np.column_stack((self.xyz[:, :2], heights)))
 
     def _moved(self, xyz: np.ndarray) -> Checkpoints:
-        """Return them at other places of the same CRS."""
+        """Return the checkpoints at other places in the same CRS."""
         places, rows = self.places, list(xyz[:, None])
         if isinstance(places, Shapes):
             return replace(self, places=Shapes(rows, places.crs, places.source))
         return replace(self, places=tuple(rows))
 
     def _in_order(self, box: Box, progress: Progress) -> Checkpoints:
-        """Return them with x before y, if this can be seen by where the points lie."""
+        """Return the checkpoints with x before y, if the box of the points shows their order."""
         x, y, _ = self.xyz.T
         if not _inside(y, x, box):
             return self
@@ -110,7 +110,7 @@ class Checkpoints(Geometry):
         return self._moved(self.xyz[:, [1, 0, 2]])
 
     def _in_units(self, place: Place, progress: Progress) -> Checkpoints:
-        """Return them in the units of the points, where the names of columns state others."""
+        """Return the checkpoints in the units of the points, if the columns state other units."""
         wanted = place.crs.horizontal_unit, place.crs.vertical_unit
         across, up = factors = tuple(map(_factor, self.units, wanted))
         for name, factor, unit in zip(("x and y", "heights"), factors, self.units):
@@ -124,14 +124,14 @@ class Checkpoints(Geometry):
 
 
 def _factor(given: float | None, wanted: float) -> float:
-    """Return units of the points in a unit that the name of a column states."""
+    """Return the factor from a unit that the name of a column states to that of the points."""
     feet = (FOOT, US_FOOT)
-    # "ft" is said of both feet. The CRS knows which of them.
+    # "ft" can be both feet, international and US survey. The CRS says which of them.
     both_feet = given in feet and min(abs(wanted - foot) for foot in feet) < 1e-9
     return 1.0 if given is None or both_feet else given / wanted
 
 
 def _inside(x: np.ndarray, y: np.ndarray, box: Box) -> bool:
-    """Return whether a place lies in a box."""
+    """Return whether any place lies in a box."""
     west, south, east, north = box
     return bool(((x >= west) & (x <= east) & (y >= south) & (y <= north)).any())

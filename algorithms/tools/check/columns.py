@@ -1,4 +1,4 @@
-"""What the columns of a table of points hold, by their names in several languages."""
+"""The roles of columns of a table of points, by their names in several languages."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from ...crs.unit_names import FOOT, UNITS, US_FOOT
 VOCABULARY = configparser.ConfigParser(interpolation=None)
 VOCABULARY.read_string(Path(__file__).with_name("words.ini").read_text(encoding="utf-8"))
 _LISTS = {name: words.split() for name, words in VOCABULARY["columns"].items()}
-# Names of columns, by what they hold; earlier names count before later ones.
+# Names of columns by role; earlier names are preferred to later ones.
 NAMES = {role: _LISTS[role] for role in ("x", "y", "z", "cover", "type", "name")}
 _LETTERS = str.maketrans(
     {"ø": "o", "Ø": "O", "ł": "l", "Ł": "L", "ß": "ss", "æ": "a", "\u0131": "i"}
@@ -30,8 +30,8 @@ def without_accents(text: str) -> str:
 
 
 def parts_of(text: str) -> list[str]:
-    """Return the words and numbers in a text, also those that only capitals part: Tall, Grass and 2
-    in "TallGrass_2".
+    """Return the words and numbers in a text, also those that only capitals separate: Tall, Grass
+    and 2 in "TallGrass_2".
     """
     return _PARTS.findall(without_accents(text))
 
@@ -46,7 +46,7 @@ _PAIR = re.compile(r"\s*(\w+)\s*=\s*(.+?)\s*$")
 
 
 class ColumnName(NamedTuple):
-    """What the name of a column says."""
+    """The words and the unit in the name of a column."""
 
     words: tuple[str, ...]  # without accents, units and numbers, with their capitals
     unit: float | None  # metres
@@ -85,7 +85,7 @@ class ColumnName(NamedTuple):
         return 1 if words.isdisjoint(_LISTS["ellipsoidal"]) else 2
 
     def rank(self, role: str) -> tuple[int, int] | None:
-        """Return how well it names a role, the smaller the better; None if it does not."""
+        """Return how well the name fits a role, the smaller the better; None if it does not fit."""
         known = NAMES[role]
         words = [word for word in self._lower if word not in _LISTS["fillers"]] or self._lower
         if role == "z":
@@ -116,7 +116,7 @@ class ColumnName(NamedTuple):
 
 
 def answer_in(text: str, column: str) -> str:
-    """Return yes or no in a column of plants as a land cover, and any other text as it is."""
+    """Return a land cover for yes or no in a column of plants, and any other text unchanged."""
     words = {word.lower() for word in ColumnName.of(column).words}
     if words.isdisjoint(_LISTS["plants"]):
         return text
@@ -126,8 +126,8 @@ def answer_in(text: str, column: str) -> str:
 
 
 def columns_in(text: str | None) -> dict[str, str]:
-    """Return the columns that a user chooses, such as ``x=E,y=N,z=H,cover=Class,type=Use,name=ID``;
-    refuse what is written in another way.
+    """Return the columns in a text such as ``x=E,y=N,z=H,cover=Class,type=Use,name=ID``; refuse
+    other texts.
     """
     chosen = {}
     for part in filter(str.strip, (text or "").split(",")):
@@ -144,8 +144,8 @@ def columns_in(text: str | None) -> dict[str, str]:
 def columns_of(
     names: Sequence[str], chosen: Mapping[str, str], path: Path | str
 ) -> dict[str, list[int]]:
-    """Return the columns that can hold each role, the best first, given for some roles the only
-    ones, as names or numbers from 1 on; refuse one that is not there.
+    """Return the columns for each role, the best first; some roles have a chosen column, a name or
+    a number from 1 on, which must exist.
     """
     found = {role: [_place_of(column, names, path)] for role, column in chosen.items()}
     used = {places[0] for places in found.values()}

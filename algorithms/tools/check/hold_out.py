@@ -1,4 +1,4 @@
-"""Hold-out: how well a part of the ground points is predicted by the others."""
+"""Hold-out: how well ground points predict others that were left out."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ from .survey_ground import SurveyGround
 
 # Most points at which errors are measured. More would hardly change the figures.
 MOST = 10_000
-# Side of the cells by which points are left out, in metres: the points of one place go together.
+# Side in metres of the cells by which points are left out: all points of a place, or none.
 _CELL = 0.01
-# What the errors do not tell, beside the figures.
+# The meaning of the errors, for pages and logs.
 AGREEMENT = (
     "how well ground points agree with each other, not how right the terrain is: objects and dense"
     " plants that were taken for ground do not show"
@@ -37,24 +37,24 @@ class HoldOut:
     open: Figures | None  # neither steep nor under trees
     under_trees: Figures | None  # not steep, of pulses with several returns
     steep: Figures | None  # where the slope is more than 20 degrees
-    single: bool = False  # no point that was left out is of a pulse with several returns
+    single: bool = False  # whether all left-out points are of pulses with a single return
 
     def limits(self, void_share: float | None = None, distance: float = 0.0) -> str:
-        """Return what the errors do not tell, in sentences, such as of the share of the area
-        farther than `distance` metres from a ground point.
+        """Return sentences on the limits of the errors, such as the share of the area farther than
+        `distance` metres from a ground point.
         """
-        said = [f"This tells {AGREEMENT}."]
+        sentences = [f"This tells {AGREEMENT}."]
         if void_share:
-            said.append(
+            sentences.append(
                 f"{100.0 * void_share:.1f} % of the area is farther than {distance:g} m from a"
                 " ground point: the terrain is interpolated there, and not measured."
             )
         if self.single:
-            said.append(
+            sentences.append(
                 "No pulse has several returns, as in clouds of images: below plants nothing was"
                 " measured."
             )
-        return " ".join(said)
+        return " ".join(sentences)
 
 
 def hold_out(
@@ -96,7 +96,7 @@ def hold_out(
 
 
 def _codes(x: np.ndarray, y: np.ndarray) -> np.ndarray:
-    """Return a number for the cell of each place that looks random, but depends only on it."""
+    """Return a pseudorandom number for the cell of each place, which depends only on the cell."""
     column, row = (np.rint(axis / _CELL).astype(np.int64).view(np.uint64) for axis in (x, y))
     first, second, third = _MIX
     with np.errstate(over="ignore"):

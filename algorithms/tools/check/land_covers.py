@@ -1,4 +1,4 @@
-"""Which checkpoints lie on vegetated land, by what surveys write in several languages.
+"""Which checkpoints lie on vegetated land, by their land covers in several languages.
 
 ASPRS (2023): Positional Accuracy Standards for Digital Geospatial Data, edition 2, version 1.0:
 land without vegetation (NVA) is bare earth, sand, rock, short grass and urban land; vegetated land
@@ -21,31 +21,31 @@ VVA = "VVA"
 CONTROL = "control"
 UNKNOWN = ""
 
-# How the standard and its predecessor abbreviate the accuracy on both kinds of land.
+# Abbreviations for the accuracy on both kinds of land in the standard and its predecessor.
 _STATED = {"nva": NVA, "fva": NVA, "vva": VVA}
 _MOST_NAMES = 10
 _UMLAUTS = re.compile("([aou])e")
 
 
 def _key(word: str) -> str:
-    """Return a word in small letters; ae, oe and ue are a, o and u, as ä, ö and ü are."""
+    """Return a word in lower case, with a, o and u for ae, oe and ue, as for ä, ö and ü."""
     return _UMLAUTS.sub(r"\1", word.lower())
 
 
 def _words(text: str) -> list[str]:
-    """Return the words in what somebody wrote."""
+    """Return the words of a text in lower case."""
     return [_key(part) for part in parts_of(text) if part.isalpha()]
 
 
 _LISTS = {
     name: frozenset(map(_key, words.split())) for name, words in VOCABULARY["land covers"].items()
 }
-# How a word of a kind ends: Nadelwald, Waldweg.
+# Endings of compound words of each kind: Nadelwald, Waldweg.
 _ENDS = tuple(
     (kind, tuple(VOCABULARY["land covers"][name].split()))
     for kind, name in ((VVA, "ends of vegetated"), (NVA, "ends of open"))
 )
-# These endings say nothing. The word before them does: Maisfeld, Waldboden, cornfield.
+# With these endings the word before them decides: Maisfeld, Waldboden, cornfield.
 _NEUTRAL_ENDS = re.compile(
     "(.{3,})(?:felder|feld|fields|field|flachen|flache|gebiet|bestand|boden|rand|veld|velden|zone)"
 )
@@ -54,14 +54,14 @@ _BETWEEN = re.compile(r"[,;/+&()|:]|\s[-\u2013]\s")
 
 
 class LandCovers(NamedTuple):
-    """Tells whether checkpoints lie on vegetated land, by what is written of them."""
+    """Decides whether checkpoints lie on vegetated land, by their use and land cover."""
 
-    # land covers with one of these are vegetated, others not; empty: the known
+    # Words of vegetated land covers, and of no others; empty for the known words.
     words: tuple[str, ...] = ()
 
     def kind(self, use: str, cover: str) -> str | None:
-        """Return `NVA`, `VVA`, `CONTROL`, `UNKNOWN` for a land cover that is not known, or None if
-        nothing is written, by use, such as Check or NVA, and land cover.
+        """Return `NVA`, `VVA`, `CONTROL`, `UNKNOWN` for an unknown land cover, or None without any,
+        from the use of a checkpoint, such as Check or NVA, and its land cover.
         """
         used, named = _words(use), _words(cover)
         says_more = not {*named} <= _LISTS["control"] | _LISTS["point"]
@@ -122,8 +122,8 @@ class LandCovers(NamedTuple):
 def kinds_of(
     checkpoints: Checkpoints, covers: LandCovers, progress: Progress
 ) -> tuple[list[str], dict[str, int]]:
-    """Return `NVA`, `VVA` or `CONTROL` for each checkpoint, by their names if nothing else is
-    written of any, and the land covers that are not known, which are told.
+    """Return `NVA`, `VVA` or `CONTROL` for each checkpoint, if need be by the names of checkpoints,
+    and the unknown land covers, of which a message warns.
     """
     uses = checkpoints.types or [""] * checkpoints.count
     found = list(map(covers.kind, uses, checkpoints.covers))
@@ -157,7 +157,7 @@ def _has(name: str, words: Sequence[str]) -> bool:
 
 
 def _parts(text: str) -> list[list[str]]:
-    """Return the words of each part of a text: of what is beside or under something else."""
+    """Return the words of each part of a text that separators or a word for "and" divide."""
     found: list[list[str]] = []
     for part in _BETWEEN.split(text):
         found.append([])
@@ -170,7 +170,7 @@ def _parts(text: str) -> list[list[str]]:
 
 
 def _singular(word: str) -> tuple[str, ...]:
-    """Return a word, and what it may be the plural of."""
+    """Return a word, and words of which it may be the plural."""
     return tuple(word[: len(word) - len(end)] for end in ("", "s", "x", "es") if word.endswith(end))
 
 
@@ -180,5 +180,5 @@ def _is_same(word: str, wanted: str) -> bool:
 
 
 def _is_control(words: Sequence[str]) -> bool:
-    """Return whether words say that a survey was fitted to a point."""
+    """Return whether words name a control point, to which a survey was fitted."""
     return _has("control", words) and not _has("check", words)

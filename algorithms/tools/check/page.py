@@ -33,7 +33,7 @@ _STYLE = f"""
 
 
 def checkpoint_html(check: Check, found: Residuals | None, survey: Survey) -> str:
-    """Return the page of a comparison; `found` are the checkpoints with errors, if any."""
+    """Return the page of a comparison; `found` are the errors at checkpoints, if there are any."""
     files = [tile.path for tile in survey.tiles]
     more = f" and {len(files) - 1:,} more" if files[1:] else ""
     parts = [paragraph(f"Points: {files[0].name}{more}", kind="files")]

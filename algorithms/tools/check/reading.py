@@ -126,7 +126,7 @@ class _Rows(NamedTuple):
         return {axis: self._best(axis) for axis in "xyz"}
 
     def with_values(self, axes: Mapping[str, int]) -> tuple[_Rows, tuple[str, ...]]:
-        """Return the rows that have any coordinate, and a note on the others."""
+        """Return the rows with any coordinate, and a note on the other rows."""
         cells = [
             [_word(record.cells[column]) for column in axes.values()] for record in self.records
         ]

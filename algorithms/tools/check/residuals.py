@@ -1,4 +1,4 @@
-"""Errors of the ground points and of a terrain model at checkpoints, and what makes all alike."""
+"""Errors of the ground points and of a terrain model at checkpoints, and common offsets."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ FIELDS: dict[str, type] = {
     "NAME": str, "COVER": str, "KIND": str, "STATE": str, "Z": float, "GROUND": float,
     "ERROR": float, "DTM": float, "DTM_ERROR": float,
 }  # fmt: skip
-# An offset is told if it is larger than this, in metres, and than this multiple of its spread.
+# An offset is reported if it is larger than this, in metres, and than a multiple of its spread.
 _LEAST = 1.0
 _TIMES_SPREAD = 5.0
 # With one or two checkpoints, which have no spread, it is larger than this, in metres.
@@ -48,9 +48,9 @@ class Residuals(NamedTuple):
     kinds: list[str]  # NVA, VVA or control
     states: list[str]  # "counted", or a key of `REASONS`
     ground: np.ndarray  # float64, (n,): heights of the TIN in the unit of the points; NaN for none
-    dtm: np.ndarray  # the same of the terrain model
+    dtm: np.ndarray  # as `ground`, of the terrain model
     errors: np.ndarray  # float64, (n,): heights of the TIN minus those of checkpoints, metres
-    dtm_errors: np.ndarray  # the same of the terrain model
+    dtm_errors: np.ndarray  # as `errors`, of the terrain model
     expected: np.ndarray  # float64, (n,): the expected error in metres; NaN for none
     unit: float  # metres in a unit of the heights
     unknown_covers: dict[str, int]  # land covers, and how many checkpoints have them
@@ -68,7 +68,7 @@ class Residuals(NamedTuple):
         yield from zip(x, y, self.names, self.covers, self.kinds, self.states, z, *rounded)
 
     def doubt(self, errors: np.ndarray) -> str:
-        """Return what makes the errors alike at all checkpoints that are counted."""
+        """Return a sentence on a common offset of all counted checkpoints, or an empty text."""
         known = self.counted & ~np.isnan(errors)
         points = self.xyz[known, 2] * self.unit
         return offset_in_words(points + errors[known], points)
@@ -133,9 +133,9 @@ def _with_fitting_heights(
     up: float,
     progress: Progress,
 ) -> Checkpoints:
-    """Return checkpoints with the heights of another column, if only these can be meant."""
-    # Those of one column are metres off, all alike, and those of the other are not: one of both is
-    # in another unit or above the ellipsoid.
+    """Return checkpoints with the heights of another column, if only these fit the ground."""
+    # If the heights of one column have a common offset of metres and those of another one have not,
+    # the first column is in another unit or above the ellipsoid.
     columns = [("", checkpoints.xyz[:, 2], None), *checkpoints.others]
     doubts = [offset_in_words(heights[counted], z[counted] * up) for _, z, _ in columns]
     if not doubts[0] or all(doubts):
@@ -175,8 +175,8 @@ def _touches(survey: Survey, x: np.ndarray, y: np.ndarray) -> np.ndarray:
 
 
 def offset_in_words(heights: np.ndarray, checkpoints: np.ndarray) -> str:
-    """Return a sentence on what makes all heights, in metres, differ alike from those of
-    checkpoints, such as another unit or vertical datum; empty if nothing does.
+    """Return a sentence on a common offset of heights from those of checkpoints, in metres, such as
+    by another unit or vertical datum; empty if there is none.
     """
     errors, count = heights - checkpoints, len(heights)
     if not count:
@@ -187,9 +187,9 @@ def offset_in_words(heights: np.ndarray, checkpoints: np.ndarray) -> str:
     for factor, who, others in (
         (FOOT, "checkpoints", "data"), (1.0 / FOOT, "data", "checkpoints")
     ):  # fmt: skip
-        left, still = _middle(heights - checkpoints * factor)
-        # On land that is high, a geoid could be left. On flat land, the spread does not shrink.
-        if abs(left) < min(0.03 * abs(offset), _LEAST) and still <= spread + 0.05:
+        rest, rest_spread = _middle(heights - checkpoints * factor)
+        # On high land, a rest could be that of a geoid. On flat land, the spread does not shrink.
+        if abs(rest) < min(0.03 * abs(offset), _LEAST) and rest_spread <= spread + 0.05:
             return (
                 f"The heights of the {who} are feet where those of the {others} are metres: they"
                 f" are {1.0 / FOOT:.3f} times as high. US survey feet and international feet look"
@@ -242,7 +242,7 @@ def write_table(target: Path, found: Residuals) -> None:
 
 
 def _cell(value: object) -> object:
-    """Return a value for a cell; a name must not look like a formula to a spreadsheet."""
+    """Return the value of a cell, without names that spreadsheets take for formulas."""
     if not isinstance(value, str):
         return value
     value = printable(value)

@@ -11,7 +11,7 @@ from .accuracy import NEEDED, Figures
 from .hold_out import AGREEMENT, HoldOut
 
 COUNTED = "counted"
-# The standard reports the accuracy in low confidence areas apart from that elsewhere.
+# The standard asks for separate figures in low confidence areas.
 LOW_CONFIDENCE = "low confidence area"
 # Colours of errors, from low to high. Blue: the data lie below the checkpoint; red: above it. They
 # differ for colour-blind people.
@@ -19,11 +19,11 @@ COLOURS = ("#2166ac", "#92c5de", "#f7f7f7", "#f4a582", "#b2182b")
 NOT_COUNTED = "#888888"  # of checkpoints that are not counted
 # Limits between the colours, as shares of the scale.
 _SHARES = (-0.6, -0.2, 0.2, 0.6)
-# What stands in place of a statement while there is a doubt.
+# In place of a statement while there is a doubt.
 NOT_STATED = "No accuracy is stated before the difference in height is settled."
 # Most names in a sentence.
 _MOST_NAMES = 30
-# Why a checkpoint is not counted, and what it means.
+# Why a checkpoint is not counted, in words.
 REASONS = {
     "outside": "outside of the survey",
     "void": "where there is no ground near",
@@ -33,21 +33,21 @@ REASONS = {
 }
 
 
-# Fewest checkpoints by which the expected error is corrected: of fewer, 95 % say little.
+# Fewest checkpoints for a factor of the expected error: 95 % of fewer is too uncertain.
 _ENOUGH = 30
 
 
 @dataclass(frozen=True)
 class Expectation:
-    """How many errors at checkpoints the expected error of the terrain model holds."""
+    """How many errors at checkpoints are within the expected error of the terrain model."""
 
-    count: int  # of checkpoints counted that have both
-    inside: int  # of those whose error is at most the expected one
-    factor: float | None  # times which it would hold 95 %; None for too few checkpoints
+    count: int  # counted checkpoints with an error and an expected error
+    inside: int  # of these, those whose error is at most the expected one
+    factor: float | None  # for the expected error to hold 95 %; None for too few checkpoints
 
     @classmethod
     def of(cls, errors: np.ndarray, expected: np.ndarray) -> Expectation | None:
-        """Return it for errors and expected errors in metres; None where none has both."""
+        """Return the numbers for errors and expected errors in metres; None without any pair."""
         known = np.isfinite(errors) & (expected > 0.0)
         if not known.any():
             return None
@@ -58,10 +58,10 @@ class Expectation:
     @property
     def text(self) -> str:
         """The result in a sentence."""
-        told = f"{self.inside:,} of {self.count:,} errors lie inside the expected error"
+        inside = f"{self.inside:,} of {self.count:,} errors lie inside the expected error"
         if self.factor is None:
-            return f"{told}; with {_ENOUGH} checkpoints it could be corrected."
-        return f"{told}; 95 % would with the factor {self.factor:.2f}."
+            return f"{inside}; with {_ENOUGH} checkpoints it could be corrected."
+        return f"{inside}; 95 % would with the factor {self.factor:.2f}."
 
 
 @dataclass(frozen=True)
@@ -71,16 +71,16 @@ class Check:
     checkpoint_count: int = 0
     counted: int = 0
     nva: Figures | None = None  # errors of the TIN of ground points on land without vegetation
-    vva: Figures | None = None  # the same with vegetation
-    dtm_nva: Figures | None = None  # the same of the terrain model
+    vva: Figures | None = None  # errors of the TIN on land with vegetation
+    dtm_nva: Figures | None = None  # errors of the terrain model on both kinds of land
     dtm_vva: Figures | None = None
-    low_confidence: Figures | None = None  # the same in low confidence areas
+    low_confidence: Figures | None = None  # errors of both in low confidence areas
     dtm_low_confidence: Figures | None = None
     not_counted: dict[str, list[str]] | None = None  # names by the reason as in `REASONS`
-    # how many checkpoints, counted as without vegetation, have which
+    # unknown land covers, and how many checkpoints have them, which count as without vegetation
     unknown_covers: dict[str, int] | None = None
     doubt: str = ""  # why no accuracy can be stated, such as another vertical datum; or empty
-    # names and errors of those counted with the largest errors of the TIN
+    # names and errors of the counted checkpoints with the largest errors of the TIN
     largest: list[dict[str, Any]] | None = None
     # metres that would remove the mean error without vegetation, None in doubt; nothing is shifted
     shift: float | None = None
@@ -112,7 +112,7 @@ class Check:
 
     @property
     def verdict(self) -> str:
-        """What was found, compared with the class, in a sentence; empty without checkpoints."""
+        """A sentence on whether the accuracy class is met; empty without checkpoints or class."""
         if not self.checkpoint_count:
             return ""
         if self.doubt:
@@ -146,15 +146,16 @@ class Check:
             "DTM NVA": self.dtm_nva, "DTM VVA": self.dtm_vva,
             "low confidence": self.low_confidence, "DTM low conf.": self.dtm_low_confidence,
         }  # fmt: skip
-        left = self.hold_out
-        if left is not None:
+        held_out = self.hold_out
+        if held_out is not None:
             rows.append(
-                f"held out          {left.left_out:>6,} ground points, {left.no_height:,} in voids"
+                f"held out          {held_out.left_out:>6,} ground points,"
+                f" {held_out.no_height:,} in voids"
             )
             rows.append(f"what this tells   {AGREEMENT}")
             named |= {
-                "held out, all": left.all, "open land": left.open,
-                "under trees": left.under_trees, "steep": left.steep,
+                "held out, all": held_out.all, "open land": held_out.open,
+                "under trees": held_out.under_trees, "steep": held_out.steep,
             }  # fmt: skip
         rows += [f"{name:<17} {figures.line}" for name, figures in named.items() if figures]
         if self.expected is not None:
@@ -171,7 +172,7 @@ class Check:
 
     @property
     def statements(self) -> list[str]:
-        """What is stated of the points and of the terrain model."""
+        """The statements on the points and on the terrain model."""
         stated = {"": self.statement, "Terrain model: ": self.dtm_statement}
         return [f"{whose}{words}" for whose, words in stated.items() if words]
 

@@ -27,8 +27,8 @@ from ...tin.delaunay_walk import (
 )
 from ...tin.triangulation import Tin
 
-# Points near a place that are kept in each round; all rounds but the first are for the places that
-# are not certain yet. In dense land the first is enough.
+# Points near a place that are kept in each round. Later rounds are only for places that are not
+# certain yet; in dense land the first is enough.
 _ROUNDS = (64, 1024, 65_536)
 # Most points that are kept at a time, at about 60 bytes each.
 _MOST_KEPT = 1 << 22
@@ -38,7 +38,7 @@ _TOGETHER = 1 << 21
 _PLACES = 1 << 11
 # Points to which the plane of the terrain is fitted.
 _OF_PLANE = 64
-# The same places, but for rounding.
+# Factor for distances, against rounding.
 _INSIDE = 1.0 - 1e-9
 
 # Which of the ground points of a part are used, given their x and y in metres.
@@ -64,7 +64,7 @@ class SurveyGround:
     def of(
         cls, sources: Sources, ground: GroundClasses, progress: Progress = SILENT
     ) -> SurveyGround:
-        """Open the files, of which all must be readable: one that is not looks like a void."""
+        """Open the files; all must be readable, since a missing one would look like a void."""
         survey = open_survey(sources, progress)
         if survey.broken:
             raise BareEarthError(survey.broken[0].reason)
@@ -122,17 +122,17 @@ class SurveyGround:
         # with more points. So memory does not depend on the survey, and neither do heights depend
         # on its files.
         heights, slopes = (np.full(len(places), np.nan) for _ in range(2))
-        left, parts = np.arange(len(places)), iter(progress.shares(0.7, 0.2, 0.1))
+        uncertain, parts = np.arange(len(places)), iter(progress.shares(0.7, 0.2, 0.1))
         for count in _ROUNDS:
-            count = min(count, max(_MOST_KEPT // max(len(left), 1), 32))
-            nearest = _Nearest(places[left], count, max_edge)
-            for points in self._near(places[left], max_edge, next(parts), chooser):
+            count = min(count, max(_MOST_KEPT // max(len(uncertain), 1), 32))
+            nearest = _Nearest(places[uncertain], count, max_edge)
+            for points in self._near(places[uncertain], max_edge, next(parts), chooser):
                 nearest.add(points)
-            if len(left) == len(places):
+            if len(uncertain) == len(places):
                 slopes[:] = nearest.slopes()
-            heights[left], sure = nearest.heights()
-            left = left[~sure]
-            if not len(left):
+            heights[uncertain], sure = nearest.heights()
+            uncertain = uncertain[~sure]
+            if not len(uncertain):
                 break
         progress(1.0)
         return TinHeights(heights, slopes)
@@ -192,7 +192,7 @@ class _Nearest:
 
     @property
     def _known(self) -> np.ndarray:
-        """How far from each place all points are known, shape (q,)."""
+        """The distance from each place up to which all points are known, shape (q,)."""
         if self._distance.shape[1] < self.count:
             return np.full(len(self.places), self._reach)
         return np.minimum(self._distance[:, -1], self._reach)

@@ -1,4 +1,4 @@
-"""Tables of points: text files whose delimiter, decimal sign and header are recognised."""
+"""Tables of points: text files, whose delimiter, decimal sign and header are recognised."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _DELIMITERS = (";", "\t", "|", ",", " ")
 # Rows that are looked at to find the delimiter.
 _SAMPLE = 50
 _COMMENTS = ("#", "//", "%", "!")
-# The CRS in a line of its own: at the start for ODM, as a comment for Agisoft.
+# A line with the CRS: the first one in lists of ODM, a comment in lists of Agisoft.
 _CRS = re.compile(
     r"(?:[#/%!\s]*(?:coordinate\s?system|crs|srs|projection)\s*[:=]\s*)?"
     r"(EPSG:\d+|\+proj=.+|(?:PROJ|GEOG|COMPD|PROJCRS|GEOGCRS)[A-Z]*\[.+|WGS ?84 UTM ?\d+ ?[NS])\s*",
@@ -27,7 +27,7 @@ _CRS = re.compile(
 )
 _UTM = re.compile(r"WGS ?84 UTM ?(\d+) ?([NS])", re.IGNORECASE)
 _IMAGE = re.compile(r".+\.(jpe?g|tiff?|png|dng|raw|arw|cr2|nef)", re.IGNORECASE)
-# How ODM marks points that do not take part in its adjustment.
+# Prefix of names in lists of ODM for points that its adjustment does not use.
 _CHECK = "CHK-"
 
 
@@ -165,8 +165,8 @@ def places_without_names(rows: Sequence[Sequence[str]]) -> dict[str, int]:
 
 
 def number_of(value: object) -> float | None:
-    """Return the number in a cell such as "512345,67", "5'400'000.5" or "1.234,5"; None if it is
-    none.
+    """Return the number in a cell such as "512345,67", "5'400'000.5" or "1.234,5"; None for other
+    texts.
     """
     if isinstance(value, (int, float)):
         return float(value) if math.isfinite(value) else None

@@ -54,7 +54,7 @@ def compare(
     resources: Resources = Resources(),
     progress: Progress = SILENT,
 ) -> TrialSummary:
-    """Classify the points in and round a window with several settings, and write the page."""
+    """Classify the points in a window and round it with several settings, and write the page."""
     settings, resources = [SETTINGS[name] for name in options.settings], resources.now()
     reach = max(setting.method.reach(setting.parameters) for setting in settings)
     context = min(reach, USUAL_CONTEXT) if options.context is None else options.context
@@ -77,13 +77,13 @@ def compare(
         notes = _notes(window.units, context, reach)
         html = comparison(sources, notes, window, outcomes, figures)
     page.write_text(html, encoding="utf-8")
-    told = [setting._asdict() for setting in figures]
     counts = window.count, figures[0].point_count
-    return TrialSummary(str(page), *counts, window.box, context, told)
+    as_dicts = [setting._asdict() for setting in figures]
+    return TrialSummary(str(page), *counts, window.box, context, as_dicts)
 
 
 def _notes(units: Units, context: float, reach: float) -> list[str]:
-    """Return notes that are needed to judge the pictures."""
+    """Return notes on the pictures."""
     notes = [
         f"{units.length(context)} round the window were read as well, to judge the points in it.",
         "All other parameters have their defaults. As in a run on all points, the present classes"

@@ -45,7 +45,7 @@ h3 { margin: 1.6em 0 .3em; font-size: 1.05em; }
 
 
 class Figures(NamedTuple):
-    """Figures of a setting for the points and cells in the window, and what runs it on all."""
+    """Figures of a setting in the window, and commands that run it on all points."""
 
     name: str
     label: str
@@ -54,7 +54,7 @@ class Figures(NamedTuple):
     ground_share: float  # percent
     expected_rmse: float | None  # of the terrain, in metres; None without terrain
     gained: int  # points that are ground, but not with the first setting
-    lost: int  # the reverse
+    lost: int  # points that are ground only with the first setting
     # mean absolute, in metres, from the first setting; None without terrain
     terrain_difference: float | None
     shell: str  # the command line
@@ -85,7 +85,7 @@ def figures_of(
 
 def comparison(
     sources: Sequence[object],
-    notes: Sequence[str],  # that help to judge the pictures
+    notes: Sequence[str],  # on the pictures
     window: Window,
     outcomes: Sequence[Outcome],
     figures: Sequence[Figures],

@@ -36,8 +36,8 @@ class Setting(NamedTuple):
         return self.method.parameters(preset=self.preset)  # type: ignore[call-arg]
 
     def commands(self, paths: Inputs) -> tuple[str, str]:
-        """Return what runs the setting on all points of a file, or inputs of a survey: in a shell,
-        and in the Python console of QGIS, which is empty if there is no such call.
+        """Return the command that runs the setting on all points, and the call in the console of
+        QGIS, which is empty if there is none.
         """
         is_one, (stem, suffix) = not paths.is_survey, split_name(paths[0])
         output = f"{stem}_{self.name.replace(':', '_')}{suffix if is_one else ''}"

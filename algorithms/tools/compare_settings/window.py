@@ -1,4 +1,4 @@
-"""The points in a window of a survey, which are read once, and what settings make of them."""
+"""The points in a window of a survey, which are read once, and their classes by each setting."""
 
 from __future__ import annotations
 
@@ -99,8 +99,8 @@ class Window:
     def outcome(
         self, setting: Setting, resources: Resources, progress: Progress, is_first: bool
     ) -> Outcome:
-        """Classify the points with a setting, and warn if there is no ground; messages that all
-        settings have in common are only reported for the first.
+        """Classify the points with a setting, and warn if there is no ground; messages that do not
+        depend on the setting are reported for the first one only.
         """
         step = LabelGround(setting.parameters)
         work = Work.in_memory(step, survey_frame(self.crs))
@@ -111,8 +111,8 @@ class Window:
         if failure:
             progress.warning(f"{setting.label}: {failure}")
         values = map(work.store.values, range(len(self.clouds)))
-        found = [step.applied(cloud, of_cloud) for cloud, of_cloud in zip(self.clouds, values)]
-        classes = np.concatenate([cloud.classification for cloud in found])
+        classified = [step.applied(*pair) for pair in zip(self.clouds, values)]
+        classes = np.concatenate([cloud.classification for cloud in classified])
         ground = classes == step.selection.to_class
         rmse = self._expected_rmse(ground, selected)
         return Outcome(setting, ground, self._terrain(ground), rmse)
@@ -128,7 +128,7 @@ class Window:
         return heights.reshape(self.shape)[::-1]
 
     def _expected_rmse(self, ground: np.ndarray, selected: np.ndarray) -> float:
-        """Return the RMSE that the points let expect, of the cells of 1 m in the window."""
+        """Return the expected RMSE of the terrain in cells of 1 m in the window."""
         if not ground.any():
             return math.nan
         (x, y, _), (width, height) = self.points, self.sides
@@ -143,8 +143,8 @@ class Window:
 
 
 def read_points(inputs: Inputs, box: Box | None, context: float, progress: Progress) -> Window:
-    """Read the points in a window, in units of the CRS, or in the middle of the survey, which a
-    message tells, and in `context` metres round it.
+    """Read the points in a window in units of the CRS, by default in the middle of the survey, and
+    up to `context` metres round it.
     """
     # An error says if the window is invalid, too wide or empty.
     area = None
@@ -156,7 +156,7 @@ def read_points(inputs: Inputs, box: Box | None, context: float, progress: Progr
     require_measurable("The survey", crs, extent)
     wanted, unit = area, crs.horizontal_unit
     area = area or Area(_middle_window(files, unit))
-    reading = progress.quiet()  # the messages were given
+    reading = progress.quiet()  # opening the files has given their messages
     window = _read(files, crs, area, context / unit, reading.part(0.1, 1.0 if wanted else 0.8))
     where = "in the middle of the points"
     if wanted is None and not (window.count and window.inside.any()):
@@ -194,7 +194,7 @@ def _read(
 
 def _middle_window(files: Sequence[LasFile], unit: float) -> Box:
     """Return a square window in the middle of the extent of a survey, in units of the CRS (`unit`
-    metres), without reading points, so that it may hold none.
+    metres); no points are read, so it may contain none.
     """
     # Its borders are whole numbers, except where the survey ends before.
     west, south, east, north = extent = _extent(files)

@@ -31,7 +31,7 @@ from .tool import EXPLANATION, TOOL
 
 
 class _Filter(NamedTuple):
-    """What the dialog of a filter says of it."""
+    """The texts of the dialog of a filter."""
 
     identifier: str
     title: str
@@ -101,16 +101,6 @@ def as_command(sets: Iterable[ParameterSet]) -> list[ParameterSet]:
     ]
 
 
-def _of_file() -> tuple[Output, ...]:
-    """Return the outputs in the dialogs of one file."""
-    return CLOUD_OUTPUT, *_usual_maps(), EXPLANATION
-
-
-def _of_tiles() -> tuple[Output, ...]:
-    """Return the outputs in the dialog of many files."""
-    return _FOLDER, LIST_OUTPUT, *_usual_maps()
-
-
 def _usual_maps() -> list[Output]:
     named = {output.name: output for output in maps()}
     error = replace(named["expected_error"], by_default=False, advanced=True)
@@ -122,7 +112,7 @@ METHOD_TOOLS = tuple(
         TOOL,
         method=name,
         points=Input("input", "cloud", label="Point cloud"),
-        dialog_outputs=_of_file,
+        dialog_outputs=lambda: (CLOUD_OUTPUT, *_usual_maps(), EXPLANATION),
         dialog_sets=(
             METHODS[name].parameters, Selection, TerrainModel, Gaps, Written, ThenAboveGround,
             Resources,
@@ -152,7 +142,7 @@ TILES_TOOL = replace(
         replace(declared, advanced=True) if declared.kind == "area" else declared
         for declared in TOOL.dialog_inputs
     ),
-    dialog_outputs=_of_tiles,
+    dialog_outputs=lambda: (_FOLDER, LIST_OUTPUT, *_usual_maps()),
     dialog_sets=(
         TileMethod, Selection, TileInput, ShownTiles, Written, ThenAboveGround, TerrainModel, Gaps,
         RasterOutput, Resources,

@@ -32,11 +32,11 @@ from .looks import Look, with_looks
 # Shares of the time of a block for finding bridges, and low outliers.
 _BRIDGES_SHARE = 0.15
 _LOW_SHARE = 0.1
-# The box that all points are in.
+# A box that contains all points.
 _EVERYWHERE = (-np.inf, -np.inf, np.inf, np.inf)
-# Metres from a block up to which all points are used: farther than any rule looks that counts
-# points. Farther away points matter by the surface that they lie on alone, so that the lowest of
-# them are enough, which saves time and memory where points are dense.
+# Metres from a block up to which all points are used: no rule counts points that are farther away.
+# Points beyond only show the surface, for which the lowest of them are enough. This saves time and
+# memory where points are dense.
 _NEAR = 40.0
 # Side in metres of the cells of whose points only the lowest is used farther away. The cells of the
 # filters are made of such cells, so that their lowest points stay.
@@ -44,7 +44,7 @@ _CELL = 0.5
 
 
 class Label(IntEnum):
-    """What a point was found to be; 0 is none of these."""
+    """The result for a point; 0 is none of these."""
 
     GROUND = 1
     LOW = 2
@@ -65,8 +65,8 @@ def labelled(
     looks: Sequence[Look],
     progress: Progress,
 ) -> tuple[np.ndarray, np.ndarray, BlockMessages, ExplainedCells | None]:
-    """Return the positions of the points of a block and the `Label` of each, or 0, with the bits of
-    further looks; what is to tell; and the cells of the rules that decided, if it `explains`.
+    """Return the positions of the points of a block, their `Label` or 0, with the bits of other
+    looks, the messages, and the cells of the deciding rules, if it `explains`.
     """
     west, south, east, north = (
         side - start for side, start in zip(visit.block.box, visit.corner * 2)
@@ -102,8 +102,8 @@ def _label(
     contents: BlockPoints,
     progress: Progress,
 ) -> tuple[np.ndarray, Decisions | None]:
-    """Return the label of each point of a window, and the rules that decided if they are wanted;
-    all points in the box are here, and some of those round it.
+    """Return the label of each point, and the deciding rules if they are wanted; `contents` are all
+    points in the box and some round it.
     """
     method, finds_low = method_of(parameters), selection.low_noise_class
     end = 1.0 - _LOW_SHARE if finds_low else 1.0
@@ -113,7 +113,7 @@ def _label(
     part = progress.part(0.0, end - _BRIDGES_SHARE if finds_bridges else end)
     points, known = contents.points, contents.known
     if points.count == 1:
-        # One point cannot be compared with others, and such groups can be many.
+        # A single point cannot be compared with others, and there can be many such groups.
         return np.array([Label.GROUND], dtype=np.uint8), None
     tell_spacing(points, box)
     warn_of_extent(points, *method.largest(parameters), progress)
@@ -143,7 +143,7 @@ def _label(
 
 
 def _seen(look: Look, points: Points, box: Box, known: np.ndarray, multi: np.ndarray) -> np.ndarray:
-    """Return which points are ground in a further look, with those that are known to be."""
+    """Return the points that are ground in another look, and those that are known ground."""
     moved = look.moved(points)
     if moved is not points:
         (west, south, east, north), (right, up) = box, look.shift
@@ -195,8 +195,8 @@ class BlockMessages(Notes):
         self.failure: BareEarthError | None = None  # why the block has no ground
 
     def keep(self, kind: str, text: str) -> None:
-        """Keep a message; that of an only block is told at once."""
-        if self._is_only:  # nothing to wait for
+        """Keep a message, or pass it on at once if there is only one block."""
+        if self._is_only:
             getattr(self._whole, kind)(text)
         else:
             super().keep(kind, text)
@@ -234,7 +234,7 @@ def thinned(contents: BlockPoints, box: Box) -> BlockPoints:
     if not contents.points.count or contents.points.are_within(box):
         return contents
     stays = contents.points.within(box)
-    # One side after the other, since a grid of all would have many cells in the middle.
+    # One side after the other, since a grid of all sides would have many empty cells in the middle.
     west, south, east, north = box
     x, y = contents.points.x, contents.points.y
     beside = (y >= south) & (y < north)
@@ -248,7 +248,7 @@ def thinned(contents: BlockPoints, box: Box) -> BlockPoints:
 
 
 def tell_spacing(points: Points, box: Box) -> None:
-    """Let points have the spacing and the noise of those in a box, which are not thinned."""
+    """Give points the spacing and the noise of those in a box, which are not thinned."""
     if points.are_within(box):
         return
     inside = points.within(box)

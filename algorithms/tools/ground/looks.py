@@ -16,8 +16,8 @@ from ...grids.expected_error import LOOKS
 # Metres by which points are moved against the cells of the filter, east and north; cells are 1 m
 # and a few metres wide.
 _SHIFTS = ((0.75, 0.57), (0.51, 0.14))
-# What a point was found to be takes so many bits of its value. The next ones tell, for each look
-# but the first, whether the point is ground in it.
+# Bits of a value for the label of a point. The next bits are set for each look but the first in
+# which the point is ground.
 _BITS = 3
 
 
@@ -49,8 +49,8 @@ class Look(NamedTuple):
 
 
 def looks_of(parameters: ParameterSet) -> Iterator[Look]:
-    """Yield the looks beside that of a filter: two with other cells, and one by each other filter,
-    with the preset and the values that the user has changed and that it has as well.
+    """Yield the looks besides that of a filter: two with other cells, and one by each other filter,
+    with the preset and the changed values of the user, as far as the filter has them.
     """
     own = method_of(parameters)
     usual = vars(type(parameters)())

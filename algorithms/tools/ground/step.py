@@ -118,7 +118,7 @@ class LabelGround(PointStep):
     def decided(
         self, part: PointCloud, values: np.ndarray, inside: np.ndarray, by_hand: ByHand | None
     ) -> PointCloud:
-        """Return what `applied` does, given which points lie in the area, and those set by hand."""
+        """Return points as `applied`, given those in the area and those set by hand."""
         labels = label_of(values)
         ground, low, decks, high = (labels == label for label in Label)
         classes = self.selection.classes(part, ground, low, inside, decks, by_hand, high)
@@ -143,7 +143,7 @@ class LabelGround(PointStep):
         return not self.output.ground_only
 
     def check_survey(self, box: Box, steps: Sequence[Step]) -> None:
-        """Refuse a survey whose extent the area does not touch, or whose rules are to be shown."""
+        """Refuse a survey that the area does not touch, or an explanation of many files."""
         if self.explain is not None:
             raise BareEarthError("The raster of rules (explain) is made of one file, not of many.")
         if self.area is not None and not self.area.may_touch(box):
@@ -236,9 +236,9 @@ class ClassifiedPoints(PointResult):
         self._has_ground = False
 
     def applied(self, part: PointCloud, values: np.ndarray) -> PointCloud:
-        """Return points with their new classes, and keep what `add` needs as well."""
+        """Return points with their new classes, and keep for `add` which lie in the area."""
         chooser = self._step.chooser
-        # To find points in polygons takes long.
+        # Kept, since searching points in polygons takes long.
         self._inside, _, _ = chooser.choose(part, self._counts)
         self._by_hand = chooser.by_hand(part)
         return self._step.decided(part, values, self._inside, self._by_hand)
@@ -306,7 +306,7 @@ class ClassifiedPoints(PointResult):
             progress.info(f"{counted(self._deck_count, *words)} not ground.")
 
     def edits(self, cloud: PointCloud, progress: Progress = SILENT) -> Edits:
-        """Return which points are written; refuse none, and heights not to be measured."""
+        """Return which points are written; refuse a file without any, or without heights."""
         output, counts = self._step.output, self._counts
         count, ground = counts.points, self._ground_count
         if output.area_only:

@@ -41,11 +41,6 @@ EXPLANATION = Output(
 )
 
 
-def _outputs() -> tuple[Output, ...]:
-    """Return rasters, contour lines, and the raster of rules."""
-    return *maps(), EXPLANATION
-
-
 def _steps(
     sets: Sequence[ParameterSet], inputs: Mapping[str, Any], outputs: Mapping[str, Path]
 ) -> tuple[Step, ...]:
@@ -84,7 +79,7 @@ def _check(
     above: ThenAboveGround,
     rasters: MakeRasters,
 ) -> None:
-    """Refuse what does not fit together."""
+    """Refuse options that contradict each other."""
     written.check_area(area is not None)
     if above.wanted and written.ground_only:
         raise BareEarthError(
@@ -124,7 +119,7 @@ TOOL = MapTool(
     json="the counts",
     inputs=(TARGET, _CONSTRAINTS, _AREA, _CORRECTIONS),
     dialog_inputs=(_AREA, _CORRECTIONS, _CONSTRAINTS, TARGET),
-    outputs=_outputs,
+    outputs=lambda: (*maps(), EXPLANATION),
     steps=_steps,
     classifies=True,
     command="classify",

@@ -25,7 +25,7 @@ from .page import quality_html
 from .rasters import QUALITY_RASTERS, write_rasters
 from .specifications import SPECIFICATIONS
 
-# Side of the cells in which first returns are looked for, if no specification says it.
+# Side in metres of the cells for first returns, without a specification.
 _SPACING = 1.0
 
 
@@ -89,14 +89,14 @@ def measure_quality(
     frame = survey_frame(survey.crs)
     with tempfile.TemporaryDirectory() as work:
         cells = _filled_cells(survey, frame, options, ground, Path(work), progress)
-        found, low = quality_of(cells, survey, options.specification, options.low_confidence_area)
+        quality, low = quality_of(cells, survey, options.specification, options.low_confidence_area)
         if folder:
             write_rasters(folder, cells, frame, progress.part(0.8, 0.98))
         if page:
-            page.write_text(quality_html(found, cells, survey, low), encoding="utf-8")
+            page.write_text(quality_html(quality, cells, survey, low), encoding="utf-8")
         if low_confidence:
             write_areas(low_confidence, low, frame, survey.crs, progress.part(0.98, 1.0))
-    return found
+    return quality
 
 
 def _filled_cells(
@@ -107,7 +107,7 @@ def _filled_cells(
     work: Path,
     progress: Progress,
 ) -> QualityCells:
-    """Return the cells of a survey with all of its points; `work` is a folder for them."""
+    """Return the cells of a survey with all of its points; `work` is a temporary folder."""
     asked = SPECIFICATIONS[options.specification]
     west, south, east, north = (side * frame.horizontal_unit for side in survey.box)
     spacing = 2 * asked.spacing if asked.spacing else _SPACING

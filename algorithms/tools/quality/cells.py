@@ -39,7 +39,7 @@ FLAGGED = 4  # a first return with the flag of overlap
 ROUGH = 8  # a pulse with several returns
 BUILT = 16  # a building
 _BUILDING = 6  # the class
-# Flight strips that are told apart in a cell.
+# Most flight strips that are distinguished in a cell.
 STRIPS = 4
 _BYTES = 72  # for a cell
 _BYTES_A_POINT = 9
@@ -53,13 +53,13 @@ _TOGETHER = 1 << 21
 # above the lowest of their strip in the cell.
 LOW = (0.2, 2.0)
 _NEAR = 0.5
-# Side in metres of the squares by which the area of the survey is told.
+# Side in metres of the squares that decide which area belongs to the survey.
 _SQUARE = 10.0
 
 
 class Store:
-    """Makes arrays, in memory or in files of a temporary folder if cells and points are many; an
-    error says if there are too many, or the disk has no space for them.
+    """Creates arrays in memory, or in files of a temporary folder if cells or points are many; an
+    error says if there are too many cells, or too little space on the disk.
     """
 
     def __init__(self, folder: Path, cells: int, points: int) -> None:
@@ -87,7 +87,7 @@ class Store:
 
 
 class Grid(NamedTuple):
-    """Square cells of a survey, which are counted from (0, 0) of the CRS."""
+    """Square cells of a survey, counted from (0, 0) of the CRS."""
 
     window: CellWindow
     size: float  # metres
@@ -131,21 +131,21 @@ class Grids(NamedTuple):
 
 @dataclass
 class Counts:
-    """What is counted of all points, without those withheld but in `points` and `withheld`."""
+    """Numbers of points; only `points` and `withheld` include withheld points."""
 
     points: int = 0
     withheld: int = 0  # excluded by the producer
-    shared: int = 0  # that another file holds as well
-    duplicates: int = 0  # others that repeat one of their file
-    synthetic: int = 0  # made and not measured, by their flag
-    infilled: int = 0  # made and not measured, by what else they say
+    shared: int = 0  # points that another file contains as well
+    duplicates: int = 0  # other points that repeat a point of their file
+    synthetic: int = 0  # not measured, according to their flag
+    infilled: int = 0  # not measured, according to return number, time or class
     flagged: int = 0  # of overlap, by the flag, or by class 12 in point formats 0 to 5
     classes: np.ndarray = field(default_factory=lambda: np.zeros(256, dtype=np.int64))
     returns: np.ndarray = field(default_factory=lambda: np.zeros(256, dtype=np.int64))
     strips: set[int] = field(default_factory=set)  # point source ids
 
     def add(self, part: PointCloud, used: np.ndarray, is_made: np.ndarray) -> None:
-        """Count the points of a part, of which some are not withheld, and some were made."""
+        """Count the points of a part; `used` are not withheld, and `is_made` are not measured."""
         self.points += part.count
         self.withheld += int(np.count_nonzero(part.withheld))
         if part.synthetic is not None:
@@ -174,7 +174,7 @@ class Extent(NamedTuple):
 
 
 class QualityCells:
-    """The cells of a survey, without points that were made."""
+    """The cells of a survey, without points that were not measured."""
 
     # points, first, ground_points, low: uint32 (rows, columns), numbers of points, first returns,
     # ground points and points of low vegetation in each cell; rows from south to north, as
@@ -289,7 +289,7 @@ class QualityCells:
             progress(min(south + _TILE, rows) / rows)
 
     def _leave_out_strips(self) -> None:
-        """Leave out source ids that only points have that were made."""
+        """Leave out source ids that only points have that were not measured."""
         self._no_strips = self._made.sources()
         self.counts.strips.difference_update(self._no_strips.tolist())
         for rows in self.grids.coarse.parts():
@@ -324,7 +324,7 @@ class QualityCells:
             (self.ground_points, ground), (self.low, (above >= LOW[0]) & (above <= LOW[1])),
         )  # fmt: skip
         if part.strip is not None:
-            # Some files count returns, but do not say of how many.
+            # Some files have return numbers, but no numbers of returns.
             of = np.maximum(part.number_of_returns[used], number)
             _mark(self.marks, coarse[of > 1], ROUGH)
             last = (number >= of) & ~np.isnan(above)
@@ -354,13 +354,13 @@ class QualityCells:
             )
 
     def values(self, make: Make, there: Rectangle, is_coarse: bool) -> np.ndarray:
-        """Return what is made of a rectangle of cells, with NaN outside of the survey."""
+        """Return values that `make` computes of a rectangle of cells; NaN outside the survey."""
         inside = self.extent.inside
         inside = inside[there] if is_coarse else twice(inside, there)
         return np.where(inside, make(self, there), np.nan)
 
     def rows_of(self, make: Make, rows: slice, is_coarse: bool) -> np.ndarray:
-        """Return what is made of some rows, with NaN outside of the survey."""
+        """Return values that `make` computes of some rows; NaN outside the survey."""
         grid = self.grids.coarse if is_coarse else self.grids.fine
         found = np.full((rows.stop - rows.start, grid.window.columns), np.nan)
         for there in self.surveyed(rows, is_coarse):
@@ -371,8 +371,8 @@ class QualityCells:
     def reduced(
         self, make: Make, step: int, is_coarse: bool = False, greatest: bool = False
     ) -> np.ndarray:
-        """Return the means, or the greatest, of what is made in squares of `step` cells, from south
-        to north; NaN for no value.
+        """Return the means, or the greatest, of values that `make` computes in squares of `step`
+        cells, from south to north; NaN for no value.
         """
         grid = self.grids.coarse if is_coarse else self.grids.fine
         found = np.full([-(-count // step) for count in grid.window.shape], np.nan)
@@ -426,17 +426,17 @@ class QualityCells:
         )
 
 
-# Makes something of a rectangle of cells.
+# Computes values of a rectangle of cells.
 Make = Callable[[QualityCells, Rectangle], np.ndarray]
 
 
 def _real(part: PointCloud, is_made: np.ndarray) -> np.ndarray:
-    """Return which points count: neither withheld nor made, and no noise."""
+    """Return the points that count: measured ones that are neither withheld nor noise."""
     return ~(part.withheld | is_made | np.isin(part.classification, NOISE))
 
 
 def _add(place: np.ndarray, *sums: tuple[np.ndarray, np.ndarray | None]) -> None:
-    """Add values, or 1 for None, to cells, of which some are given several times."""
+    """Add values, or 1 for None, to cells, which can occur several times in `place`."""
     places, back = np.unique(place, return_inverse=True)
     for cells, values in sums:
         total = np.bincount(back, weights=values, minlength=len(places))

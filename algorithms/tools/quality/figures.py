@@ -29,15 +29,15 @@ class Line(NamedTuple):
 
 @dataclass(frozen=True)
 class Quality:
-    """The figures of a survey; withheld points are left out, and noise is left out of densities."""
+    """The figures of a survey, without withheld points, and densities also without noise."""
 
     specification: str
-    points: int  # all, also those withheld
+    points: int  # also withheld ones
     withheld: int  # excluded by the producer
-    shared: int  # points that another file holds as well
+    shared: int  # points that another file contains as well
     duplicates: int  # points that repeat one of their file
     synthetic: int  # points that were not measured, by their flag
-    infilled: int  # other points that were not measured: infilled and virtual ones
+    infilled: int  # other points that were not measured, infilled or virtual
     flagged: int  # points with the flag of overlap
     classes: dict[int, int]
     returns: dict[int, int]
@@ -59,7 +59,7 @@ class Quality:
     low_confidence_least_area: float | None = None  # m2
     low_confidence_count: int = 0
     low_confidence_share: float | None = None
-    # of the areas: roofs without class 6, or crops, since pulses have hardly several returns there
+    # areas where few pulses have several returns, such as roofs without class 6 and crops
     low_confidence_without_plants: int = 0
     overlap_share: float | None = None  # of cells of twice the size, with several strips
     overlapping: int = 0  # these cells
@@ -105,7 +105,7 @@ class Quality:
 
     @property
     def no_pulses(self) -> str:
-        """The points and the area that densities leave out, beside withheld points and noise."""
+        """The points and the area that densities leave out, besides withheld points and noise."""
         counts = {
             "shared by files": self.shared, "duplicates": self.duplicates,
             "synthetic": self.synthetic, "infilled": self.infilled,
@@ -243,8 +243,8 @@ def lines_of(found: Quality, asked: Specification) -> list[Line]:
     return lines
 
 
-# The key of where the specification says it, the name, what was found and what is asked for; and
-# whether that passes, None where a person must decide.
+# For each comparison: the key of its section in the specification, its name, the value, the wanted
+# value, and whether it passes, None if a person must decide.
 _Comparisons = Iterator["tuple[str, str, str, str, bool | None]"]
 
 

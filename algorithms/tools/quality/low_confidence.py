@@ -36,9 +36,7 @@ _FIELDS: dict[str, type] = {"AREA": float, "DENSITY": float, "RETURNS": float}
 class LowConfidenceArea(NamedTuple):
     """A connected area of low confidence."""
 
-    rings: tuple[
-        np.ndarray, ...
-    ]  # float64 (n, 2), outline and holes, metres from (0, 0) of the CRS
+    rings: tuple[np.ndarray, ...]  # float64 (n, 2): outline and holes, metres from (0, 0)
     area: float  # m2
     density: float  # ground points in 1/m2
     returns: float  # share of its cells with pulses of several returns
@@ -63,8 +61,8 @@ class LowConfidence(NamedTuple):
 def low_confidence_of(
     cells: QualityCells, pulse_density: float | None, least_area: float
 ) -> LowConfidence | None:
-    """Return the low confidence areas of a survey whose cells are filled, by the pulses in a square
-    metre that it has or should have; None without any.
+    """Return the low confidence areas of a survey, given its density of pulses in 1/m2, measured or
+    demanded; None without any.
     """
     from scipy import ndimage
 
@@ -82,7 +80,7 @@ def low_confidence_of(
     land = ~np.isnan(density)
     mean = partial(_mean_around, known=land, disk=_disk(radius / cell))
     low = land & (mean(density) < _SHARE * pulse_density) & (mean(has_pulses) > 0.0)
-    # The density of single places is chance: where most cells around are low, all are.
+    # The density of single cells varies by chance, so a cell is low where most cells around are.
     low = land & (mean(low.astype(np.float32)) >= 0.5)
     labels, _ = ndimage.label(low, np.ones((3, 3)))
     sizes = np.bincount(labels.ravel())
@@ -112,7 +110,7 @@ def _rings(
 
 
 def _of_land(make: Make) -> Make:
-    """Return what makes values where there is neither water nor a building, and NaN elsewhere."""
+    """Return a function that computes values where there is no water and no building, else NaN."""
 
     def of_land(cells: QualityCells, there: Rectangle) -> np.ndarray:
         is_land = twice(cells.extent.dry, there) & (twice(cells.marks, there) & BUILT == 0)

@@ -1,7 +1,7 @@
-"""Finds the points of a survey that were made, not measured: synthetic, infilled and virtual ones.
+"""Finds points that were not measured but made: synthetic, infilled and virtual ones.
 
-Producers fill water, land under buildings and bridges with points of their own. They are no pulses
-and belong to no flight strip.
+Producers add such points on water and under buildings and bridges. They are no pulses and belong to
+no flight strip.
 """
 
 from __future__ import annotations
@@ -24,22 +24,22 @@ PRODUCERS_CLASSES[23:40] = PRODUCERS_CLASSES[46:] = True
 
 
 class MadePoints:
-    """Tells which points were made: synthetic ones, unless all of a survey are; those with return
-    number 0 beside others that count; and those of producers' classes without a pulse.
+    """Finds made points: synthetic ones, unless all are; those with return number 0 if others count
+    returns; and those of producers' classes without a GPS time.
     """
 
     def __init__(self, survey: Survey, has_times: bool, progress: Progress) -> None:
         self.all_synthetic = True
         self._counts_synthetic = False
-        self._has_times = False  # whether points without a GPS time stand beside others
+        self._has_times = False  # whether any point has a GPS time
         self._zeros: set[Path] = set()  # files whose points with return number 0 are infilled
-        # By source id: whether it has points of producers' classes, and others that were measured.
+        # By source id: whether it has points of producers' classes, and measured points.
         self._of_producers, self._measured = np.zeros((2, 1 << 16), dtype=bool)
         self._look_at(survey, has_times, progress)
 
     def _look_at(self, survey: Survey, has_times: bool, progress: Progress) -> None:
-        """Read files, mostly only their first parts, until it is known how they count returns and
-        whether all points are synthetic.
+        """Read files, usually only their first parts, to learn how they count returns and whether
+        all points are synthetic.
         """
         counting: set[Path] = set()
         infill: set[Path] = set()
@@ -56,7 +56,7 @@ class MadePoints:
                     counting.update(() if part.from_zero else (tile.path,))
                 if counts and not self.all_synthetic:
                     break
-            # A file that does not count returns at all was measured, if it shows land.
+            # A file without return numbers was measured if it contains land.
             if not counts and not has_land:
                 infill.add(tile.path)
         self._zeros = counting | infill if counting else set()
@@ -80,7 +80,7 @@ class MadePoints:
         return np.flatnonzero(no_strips & self._measured.any())
 
     def infilled(self, part: PointCloud) -> np.ndarray:
-        """Return which points were infilled by what they say themselves; boolean, shape (n,)."""
+        """Return which points are infilled, by return number, time and class; boolean, (n,)."""
         infilled = np.zeros(part.count, dtype=bool)
         if part.path in self._zeros:
             infilled |= part.return_number == 0
@@ -89,7 +89,7 @@ class MadePoints:
         return infilled
 
     def made(self, part: PointCloud) -> np.ndarray:
-        """Return which points were made, among these synthetic ones; boolean, shape (n,)."""
+        """Return which points were not measured, synthetic ones included; boolean, (n,)."""
         made = self.infilled(part)
         return made if self._counts_synthetic else made | np.asarray(part.synthetic)
 

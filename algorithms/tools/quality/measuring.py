@@ -26,7 +26,7 @@ _STEEPEST = 10.0
 def quality_of(
     cells: QualityCells, survey: Survey, specification: str, least_area: float
 ) -> tuple[Quality, LowConfidence | None]:
-    """Return the figures of a survey whose cells are filled, with the comparison, and the low
+    """Return the figures of a survey with the comparison, from its filled cells, and the low
     confidence areas of `least_area` m2 and more.
     """
     counts, asked = cells.counts, SPECIFICATIONS[specification]
@@ -59,7 +59,7 @@ def _share(part: float, whole: float) -> float | None:
 
 
 def _densities(cells: QualityCells, asked: Specification) -> dict[str, Any]:
-    """Return densities, and where they and the ground are too low."""
+    """Return densities, and the shares of dense cells and of voids of the ground."""
     extent, square = cells.extent, cells.grids.coarse.size**2
     sums = np.zeros(6)
     for rows in cells.grids.fine.parts():
@@ -89,7 +89,7 @@ def _densities(cells: QualityCells, asked: Specification) -> dict[str, Any]:
 
 
 def _filled(cells: QualityCells, asked: Specification) -> dict[str, Any]:
-    """Return where first returns are missing, outside water."""
+    """Return how many cells have first returns, and the voids without any, outside water."""
     if asked.spacing is None:
         return {}
     spaced, coarse = cells.grids.spaced, cells.grids.coarse
@@ -112,7 +112,7 @@ def _filled(cells: QualityCells, asked: Specification) -> dict[str, Any]:
 
 
 def _strips(cells: QualityCells) -> dict[str, Any]:
-    """Return how strips overlap and differ."""
+    """Return the figures of overlap and of differences between strips."""
     overlapping, compared, squares, largest = 0, 0, 0.0, 0.0
     kinds = np.zeros(3, dtype=np.int64)
     on_flat_land = partial(strip_differences, steepest=_STEEPEST)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Iterator
+from typing import Iterator, Sequence
 
 import numpy as np
 
@@ -89,9 +89,13 @@ def _maps(cells: QualityCells, survey: Survey, low: LowConfidence | None) -> Ite
     if low is not None:
         step = math.ceil(max(low.low.shape) / _LONGEST)
         shown = np.where(reduced(low.low[::-1].astype(float), step, True) > 0, 1, 0)
-        table = np.array([rgb(colour) for colour in _LOW], dtype=np.uint8)
-        picture = Picture(table[shown], low.cell * step)
+        picture = Picture(_painted(shown, _LOW), low.cell * step)
         yield map_of(picture, "Low confidence areas", keys(_LOW, ("none", "low confidence")), units)
+
+
+def _painted(classes: np.ndarray, colours: Sequence[str]) -> np.ndarray:
+    """Return the pixels of classes, which are numbers of colours."""
+    return np.array([rgb(colour) for colour in colours], dtype=np.uint8)[classes]
 
 
 def _coloured(raster: QualityRaster, values: np.ndarray, units: Units) -> tuple[np.ndarray, Html]:
@@ -99,8 +103,7 @@ def _coloured(raster: QualityRaster, values: np.ndarray, units: Units) -> tuple[
     colours = raster.colours
     if raster.class_of:
         classes = np.nan_to_num(raster.class_of(values)).astype(np.int64)
-        table = np.array([rgb(colour) for colour in colours], dtype=np.uint8)
-        pixels = table[np.clip(classes, 0, len(colours) - 1)]
+        pixels = _painted(np.clip(classes, 0, len(colours) - 1), colours)
         pixels[np.isnan(values)] = rgb(NOWHERE)
         return pixels, keys(colours, raster.words)
     low, high = np.nanpercentile(values, (2.0, 98.0)).tolist()

@@ -9,7 +9,7 @@ import numpy as np
 from ...grids.parts import parts_with
 from ...grids.planes import means_and_moments, plane_slopes
 
-# Cells round a cell whose ground makes its plane: the first that hold enough points.
+# Cells to each side of a cell whose ground makes its plane: the first with enough points.
 WINDOWS = (1, 2, 4, 10)
 # Fewest points of a plane; three would fit any.
 _LEAST_POINTS = 6
@@ -76,8 +76,8 @@ def moments(
 
 
 def plane_of(sums: Iterable[np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
-    """Return whether points are enough and not on a line, and their planes of least squares, of
-    which the sums of `moments` are given: height at (0, 0), slopes to east and north, else level.
+    """Return whether points are enough and not on a line, and their planes of least squares, from
+    sums of `moments`: height at (0, 0) and slopes to east and north, 0 for too few points.
     """
     count, *others = sums
     x, y, z, xx, xy, yy, xz, yz = means_and_moments(np.maximum(count, 1.0), *others)

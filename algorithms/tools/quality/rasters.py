@@ -25,11 +25,11 @@ from .planes import moments, plane_of
 LIMITS = (0.08, 0.16)
 _NO_BYTE = 255  # value of bytes without data
 _LEAST_POINTS = 3  # of a strip in a cell that is compared
-# A strip is even where its lowest points lie so near to a plane through those of the cells around,
-# in metres. Edges of roofs, cars and single trees are not; a strip that is off as a whole is.
+# Largest distance in metres of the lowest points of an even strip from a plane through those of the
+# cells around. Edges of roofs, cars and single trees are uneven; a strip with an offset is even.
 _UNEVEN = 0.25
-# A difference that is farther than this, in metres, from the median of those of the cells around is
-# that of the edge of a roof or of a crown. Strips that do not fit do so in many cells.
+# A difference that is farther than this, in metres, from the median of the cells around is at the
+# edge of a roof or of a crown. Strips with an offset differ in many cells.
 _FROM_AROUND = 0.25
 _AROUND = 2  # cells to each side: 5 x 5
 # Cells whose surroundings are looked at together.
@@ -133,8 +133,8 @@ def _is_even(
     cells: QualityCells, row: np.ndarray, column: np.ndarray, steepest: float
 ) -> np.ndarray:
     """Return where each strip of some cells is even; boolean, shape (4, n)."""
-    # A plane through the lowest points of the strip itself, in the 3 x 3 cells around, tells. So
-    # strips that are far apart count as even, and what rises in single cells does not.
+    # The plane is fitted to the lowest points of the strip itself in 3 x 3 cells. So strips with an
+    # offset count as even, and objects in single cells do not.
     (rows, columns), size = cells.grids.coarse.window.shape, cells.grids.coarse.size
     names, own = cells.strip[:, row, column], cells.strip_low[:, row, column]
     known = (names > 0) & np.isfinite(own)

@@ -20,6 +20,7 @@ from ...survey.area import Area, Polygon
 from ...survey.feature_files import Feature, Layer, feature_writer
 from ...survey.shapes import Place
 from ...survey.vector_files import CLASS_FIELD
+from ..contours import corners_of
 from ..declaration import RASTER, TERRAIN, FileTool, Input, Output
 from .page import review_html
 from .places import CAUSES, PlaceToReview, Rasters, Review, places_of
@@ -42,8 +43,8 @@ class ReviewSummary:
     place_count: int  # that were written
     left_out: int  # further places, which weigh less
     small_count: int  # places that are smaller than the least area
-    answered: int  # places that were answered before
-    share: float  # of the sum of error times area over the limit, in the places written
+    answered: int  # places with an answer in the corrections
+    share: float  # of the sum of error times area over the limit that is in the written places
 
     def figures(self, units: Units) -> list[tuple[str, str]]:
         """Return the figures of the page, with their titles."""
@@ -61,7 +62,7 @@ class ReviewSummary:
 
     @property
     def text(self) -> str:
-        """What was found, in a sentence."""
+        """The result in a sentence."""
         counts = {"of less weight": self.left_out, "too small": self.small_count}
         left = ", ".join(f"{counted(n, 'place')} {why}" for why, n in counts.items() if n)
         more = f" Left out: {left}." if left else ""
@@ -99,19 +100,19 @@ def review(
     limit = how.limit(rasters.error)
     found, small = places_of(rasters, how, limit, units)
     is_done = _are_answered(found, raster, answered)
-    left = [place for place, done in zip(found, is_done) if not done]
-    chosen = left[: how.most_places]
+    unanswered = [place for place, done in zip(found, is_done) if not done]
+    chosen = unanswered[: how.most_places]
     progress(0.7)
-    total = sum(place.weight for place in left)
+    total = sum(place.weight for place in unanswered)
     summary = ReviewSummary(
         int(np.count_nonzero(known)),
         round(expected_rmse(rasters.error), 4),
         round(limit, 4),
         int(np.count_nonzero(rasters.error[known] > limit)),
         len(chosen),
-        len(left) - len(chosen),
+        len(unanswered) - len(chosen),
         small,
-        len(found) - len(left),
+        len(found) - len(unanswered),
         round(sum(place.weight for place in chosen) / total, 6) if total else 1.0,
     )
     if places is not None:
@@ -150,20 +151,13 @@ def _rasters(raster: Raster, dtm: Source | None, cause: Source | None) -> Raster
     )
 
 
-def _corners(places: np.ndarray, raster: Raster) -> np.ndarray:
-    """Return x and y of rows and columns of a raster, (n, 2); the centres of cells are whole."""
-    x, a, b, y, c, d = raster.geotransform
-    row, column = places.T + 0.5
-    return np.column_stack((x + a * column + b * row, y + c * column + d * row))
-
-
 def _are_answered(
     places: list[PlaceToReview], raster: Raster, answered: tuple[Polygon, ...]
 ) -> np.ndarray:
     """Return of which places the worst cell lies in a polygon with an answer; bool, (n,)."""
     if not answered or not places:
         return np.zeros(len(places), dtype=bool)
-    x, y = _corners(np.array([place.worst for place in places]), raster).T
+    x, y = corners_of(np.array([place.worst for place in places]), raster).T
     return Area(None, answered).contains(x, y)
 
 
@@ -171,7 +165,7 @@ def _features(places: list[PlaceToReview], raster: Raster, total: float) -> Iter
     """Yield the places as polygons."""
     up = raster.frame.vertical_unit
     for rank, place in enumerate(places, start=1):
-        rings: Polygon = tuple(_corners(ring, raster) for ring in place.rings)
+        rings: Polygon = tuple(corners_of(ring, raster) for ring in place.rings)
         yield Feature(
             (
                 rank, place.reason, round(place.error, 3), round(place.area, 2),

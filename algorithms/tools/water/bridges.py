@@ -25,8 +25,8 @@ _ABUTMENT_CELLS = 3.0  # the least of it, cells
 
 
 def below_decks(water: np.ndarray, grid: WaterGrid) -> np.ndarray:
-    """Return the cells below decks that lie between cells of water, which are without those below
-    decks; bool (rows, columns).
+    """Return the cells below decks that lie between cells of `water`, in which cells below decks
+    are missing; bool (rows, columns).
     """
     # Only the cells of a deck and of its edges change, so that the land on both sides of a river
     # stays. A deck without water on both sides has none below it.
@@ -51,7 +51,7 @@ def below_decks(water: np.ndarray, grid: WaterGrid) -> np.ndarray:
 
 
 def _across(seen: np.ndarray, joined: np.ndarray, hiding: np.ndarray, most: float) -> np.ndarray:
-    """Return cells below a deck straight between parts of water, `most` cells apart, not joined."""
+    """Return the cells below a deck between pieces of water that are at most `most` cells apart."""
     # A disc reaches between the pieces of a stream that is narrower than the deck.
     from scipy.ndimage import label
     from scipy.spatial import Delaunay, cKDTree

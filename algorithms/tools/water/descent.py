@@ -6,14 +6,14 @@ from typing import NamedTuple, Sequence
 
 import numpy as np
 
-# Metres: heights this near to a level count fully, others by their distance, so that in these
-# rounds the level becomes a median.
+# Metres: heights this near to a level have full weight, others less with their distance. After
+# these rounds of weighted means the level is a median.
 _NEAR = 0.02
 _ROUNDS = 6
 # Stations over which levels are smoothed to learn which end of a chain is the upper one.
 _SMOOTH = 3.0
-# Metres: a chain that is lower by this between its ends has two upper ends, such as two rivers that
-# meet where the survey ends.
+# Metres: a chain whose lowest level is this far below both ends has two upper ends, such as two
+# rivers that meet where the survey ends.
 _VALLEY = 0.3
 _NO_HEIGHT = 1e-4  # weight of a station without heights, compared to a height
 _PROJECTIONS = 200  # most rounds of projections
@@ -22,7 +22,7 @@ _SAME = 1e-4  # metres: levels that move by less in a round are final
 # do not count. So the end of a chain is not that of a single wall.
 _STRAY = 0.5
 _STRAY_STATIONS = 2
-# Stations on each side from which is taken what a percentile differs from the median.
+# Stations on each side whose median difference between percentile and median is used.
 _STATIONS = 5
 _MEET = 0.1  # metres: stations this near are one
 # A line joins another one if it ends within a multiple of half the width of the water, and metres
@@ -38,7 +38,7 @@ class Network(NamedTuple):
     edges: np.ndarray  # int64 (m, 2), pairs of neighbours, each once
 
     def chains(self) -> list[np.ndarray]:
-        """Return the ways between stations that have not two neighbours."""
+        """Return the paths between ends and junctions: stations that have not two neighbours."""
         beside: list[list[int]] = [[] for _ in range(self.size)]
         for first, second in self.edges.tolist():
             beside[first].append(second)
@@ -46,7 +46,7 @@ class Network(NamedTuple):
         found, passed = [], np.zeros(self.size, dtype=bool)
         ends = [station for station in range(self.size) if len(beside[station]) != 2]
         used: set[tuple[int, int]] = set()
-        # What has no end is a ring: it begins anywhere.
+        # A ring has no end, so it can begin at any station.
         for start in (*ends, *(n for n in range(self.size) if len(beside[n]) == 2)):
             if passed[start] and len(beside[start]) == 2:
                 continue
@@ -70,7 +70,7 @@ class Network(NamedTuple):
 
 
 def _way_on(beside: list[list[int]], start: int, second: int) -> list[int]:
-    """Return the way from a station over its neighbour to the next end or junction."""
+    """Return the path from a station by a neighbour to the next end or junction."""
     way = [start, second]
     while len(beside[way[-1]]) == 2 and way[-1] != start:
         first, second = beside[way[-1]]
@@ -88,8 +88,8 @@ class Descent(NamedTuple):
 def descent(
     network: Network, station: np.ndarray, heights: np.ndarray, percentile: float = 50.0
 ) -> Descent:
-    """Return the levels nearest to heights (n,), at least one, beside stations (n,), which rise in
-    no chain downstream.
+    """Return the levels nearest to heights (n,) beside stations (n,), n > 0, that never rise
+    downstream.
     """
     # A level is the percentile of the heights beside a station, compared with their trend.
     # The sum of distances is least (isotonic regression), so that single heights do not count; the
@@ -136,13 +136,13 @@ def _smoothed(network: Network, station: np.ndarray, heights: np.ndarray) -> np.
         matrix = (laplace + diags(total + _NO_HEIGHT)).tocsc()
         right = total * mean + _NO_HEIGHT * levels
         levels = np.atleast_1d(spsolve(matrix, right))
-        # As for a median, but all heights count alike when they are a bank's height away.
+        # Weights as for a median, but equal for all heights up to the height of a bank away.
         weights = 0.5 / np.maximum(np.abs(heights - levels[station]), 0.5)
     return levels
 
 
 def _directed(chains: list[np.ndarray], smooth: np.ndarray) -> list[np.ndarray]:
-    """Return chains downstream; those with a valley between their ends, or a ring, are two."""
+    """Return the chains downstream, with rings and chains with a valley cut in two."""
     found = []
     for chain in chains:
         heights = smooth[chain]
@@ -168,7 +168,7 @@ def _ordered(values: np.ndarray, weights: np.ndarray, chains: list[np.ndarray]) 
             moved[number] = wanted - levels[chain]
         if np.abs(levels - before).max() < _SAME:
             break
-    # From the highest junction to the lowest: what little is left out of order.
+    # Small rises that remain are removed from the highest junction to the lowest.
     for chain in chains:
         levels[chain] = np.minimum.accumulate(levels[chain])
     return levels
@@ -241,8 +241,8 @@ def falling(
 
 
 def joined(lines: Sequence[np.ndarray], border: np.ndarray) -> tuple[np.ndarray, Network]:
-    """Return the stations (k, 2) of lines (n, 2) as one network: lines that end near another one
-    join it, as far as the banks (m, 2) are from its middle.
+    """Return the stations (k, 2) of lines (n, 2) as one network, in which a line that ends near
+    another one, by the distance of its banks (m, 2), joins it.
     """
     from scipy.spatial import cKDTree
 

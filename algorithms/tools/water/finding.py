@@ -37,7 +37,7 @@ from .levels import (
 
 _CLOSE = 1.5  # radius of the disc that closes single stray cells, cells
 _OPEN = 1.5  # radius of the disc that cuts thin links, cells
-# Radius in cells of the disc that closes gaps between points of class 9 alone.
+# Radius in cells of the disc that closes gaps where only points of class 9 show the water.
 _CLOSE_CLASS = 3.5
 # Fewest segments of a shore.
 _FEWEST = 3
@@ -45,8 +45,8 @@ _FEWEST = 3
 _LEAST_ISLAND = 100.0
 _MOST_SPREAD = 0.3  # spread of a shore from its level up to which it is water, m
 _SPREAD_A_METRE = 0.12  # spread of banks in coarse cells, m for each metre of a cell
-# Share of the shore from which the land rises if it is one of banks: in few points, twice that
-# spread is that of the places along the bank where these happen to lie.
+# Least share of the shore from which the land rises for a shore with banks. Such a shore may have
+# twice the spread, since sparse points lie at different heights of the bank.
 _RISING_FROM_BANKS = 0.8
 _LEAST_KNOWN = 0.2  # least share of the shore with ground
 _LEAST_RISING = 0.6  # least share of its segments from which the land rises
@@ -57,14 +57,14 @@ _LEAST_RISING_OUTSIDE = 0.75
 _BANK = 2.0
 _ABOVE = 2.0  # height above the level from which returns are not water, m
 _MOST_ABOVE = 0.05  # largest share of cells with such returns
-# Most returns inside lie at most so far from the level, in metres, unless they are as few.
+# Largest distance of most returns inside from the level, in metres, unless returns are as few.
 _MOST_OFF = 0.5
 # Share of class 9 among the points from which a region needs no rising shore.
 _CLASSIFIED = 0.5
 # A part of water beyond a step of its level, or of class 9 that the border of the survey cuts, has
 # at least this share of the smallest area.
 _LEAST_PART = 0.1
-# Most certainty where a part of the shore is farther from the level than the spread of water.
+# Largest certainty where a part of the shore is farther from the level than `_MOST_SPREAD`.
 _MOST_MISFITTING = 0.7
 _CERTAIN_SPREAD = 0.25  # spread of the whole shore that has the same effect, m
 # Least certainty of each grade.
@@ -117,7 +117,7 @@ class WaterBody(NamedTuple):
     level: float  # of a river, at its upper end
     lowest: float  # of a river, the level at its lower end
     area: float  # square metres
-    # What is not known of water that was not found is NaN.
+    # The following figures are NaN for water of the user.
     spread: float = math.nan  # robust standard deviation of the shore from the level
     certainty: float = math.nan  # 0 to 1
     width: float = math.nan  # mean
@@ -126,7 +126,7 @@ class WaterBody(NamedTuple):
 
     @property
     def grade(self) -> str:
-        """The grade of certainty: certain, likely or doubtful; given if it was not found."""
+        """The grade of certainty: certain, likely or doubtful, or given for water of the user."""
         grades = (name for name, least in GRADES.items() if self.certainty >= least)
         return next(grades, "given")
 
@@ -137,8 +137,8 @@ class _Region(NamedTuple):
     window: Window
     water: np.ndarray
     below: np.ndarray  # cells of it below decks of bridges
-    outside: np.ndarray  # those beyond the points of the survey
-    level: np.ndarray  # those of dead-level surfaces full of returns
+    outside: np.ndarray  # cells of it beyond the points of the survey
+    level: np.ndarray  # cells of it on dead-level surfaces full of returns
     beside: np.ndarray  # cells of water with another level, and those beside it
 
     @property
@@ -148,7 +148,7 @@ class _Region(NamedTuple):
 
 
 class _Marks(NamedTuple):
-    """What tells the level of a region."""
+    """The evidence for the level of a region."""
 
     shore: Shore
     share: float  # of class 9
@@ -160,16 +160,16 @@ def find_water(grid: WaterGrid, how: Water, progress: Progress = SILENT) -> list
     search = _Search(grid, how)
     none, covered = (np.zeros(grid.shape, dtype=bool) for _ in range(2))
     first, second = progress.shares(1.0, 1.0)
-    found: list[WaterBody] = []
+    bodies: list[WaterBody] = []
     for region in search.regions(none, covered, first):
-        found += search.bodies_in(region, covered)
-    # Level surfaces full of returns are water only where there is none by its voids and shore.
+        bodies += search.bodies_in(region, covered)
+    # Level surfaces full of returns are searched only where voids and shores show no water.
     level = level_areas(grid, search.outside, search.least) & ~covered
     if level.any():
         for region in search.regions(level, covered, second):
             if region.level.any():
-                found += search.bodies_in(region, covered)
-    return sorted(found, key=lambda body: (-body.rings[0][:, 1].max(), body.rings[0][:, 0].min()))
+                bodies += search.bodies_in(region, covered)
+    return sorted(bodies, key=lambda body: (-body.rings[0][:, 1].max(), body.rings[0][:, 0].min()))
 
 
 class _Search:
@@ -214,7 +214,7 @@ class _Search:
         return water | small[land[1:-1, 1:-1]]
 
     def bodies_in(self, region: _Region, covered: np.ndarray) -> list[WaterBody]:
-        """Return the water of a region, perhaps without what no point shows; it is then covered."""
+        """Return the water of a region, if need be without unseen cells, and mark it as covered."""
         bodies = self._bodies_of(region)
         for unseen in (region.outside, region.below, region.outside | region.below):
             if bodies or not unseen.any():
@@ -228,7 +228,7 @@ class _Search:
         return bodies
 
     def _bodies_of(self, region: _Region) -> list[WaterBody]:
-        """Return a region as water; if it is something else, its parts of class 9."""
+        """Return a region as water, or else its parts of class 9 that are water."""
         if not region.open.any():
             return []
         is_class = region.water & self.grid.class_in(region.window)
@@ -245,8 +245,8 @@ class _Search:
         return bodies
 
     def _marks_of(self, region: _Region, is_shore: bool) -> _Marks | None:
-        """Return what tells the level of a region: its shore, None if that is not one of water; or
-        its points, of class 9 or a level surface.
+        """Return the evidence for the level of a region: its shore, or its points of class 9 or on
+        a level surface; None for a shore that is not that of water.
         """
         grid, window = self.grid, region.window
         is_class = grid.class_in(window)
@@ -264,7 +264,7 @@ class _Search:
         return _Marks(shore, share, rising) if rising >= least else None
 
     def _parts_of(self, region: _Region, is_shore: bool) -> list[WaterBody]:
-        """Return a region as water, or what it falls into at steps of its level."""
+        """Return a region as water, or its parts, into which steps of the level divide it."""
         grid = self.grid
         marks = self._marks_of(region, is_shore)
         if marks is None or len(marks.shore.lowest) < _FEWEST:
@@ -291,7 +291,7 @@ class _Search:
                     bodies += self._parts_of(part, is_shore)
             if bodies:
                 return bodies
-        # Of water that is cut off, the width tells whether it is small.
+        # Water that the border of the survey cuts off is judged by its width, not by its area.
         has_width = levels.reaches is not None or self._is_small(region.water)
         is_narrow = has_width and levels.width * grid.cell < self.how.min_width
         if levels.spread > most or is_narrow or not _is_free(surface, levels):
@@ -350,7 +350,7 @@ def _inner_returns(water: np.ndarray, lowest: np.ndarray) -> np.ndarray:
 
 
 def _is_free(inner: np.ndarray, levels: Levels) -> bool:
-    """Return whether what lies in a region is at its level, away from its banks."""
+    """Return whether the returns in a region, away from its banks, lie at its level."""
     known = inner[~np.isnan(inner[:, 2])]
     off = known[:, 2] - levels.level_at(known[:, :2])
     few = _MOST_ABOVE * len(inner)

@@ -16,7 +16,7 @@ from ...grids.cells import are_inside, cells_at, lower_at
 Window = tuple[slice, slice]
 # Most cells of a survey, at 13 bytes each; up to 2 GB while water is found.
 _MOST_CELLS = 60_000_000
-# The rest is for cells that only touch the extent.
+# The rest of them is for cells that only touch the extent.
 _SHARE_FOR_BORDERS = 0.99
 # Cells that become larger in a large survey stay so small that the narrowest river of the Lidar
 # Base Specification, 30 m, is six cells wide.
@@ -38,8 +38,8 @@ _CLASS_SHARE = 0.5
 
 
 def cell_for(area: float, count: int, size: float | None = None, extent: float = 0.0) -> float:
-    """Return the side in metres of the cells for a survey, of an area and an extent in square
-    metres; a large one gets larger cells than the user wants, to fit into memory.
+    """Return the side in metres of the cells for a survey: `size`, or by the spacing of the points
+    on an area in square metres; with a large extent they are larger, to fit into memory.
     """
     if size is not None:
         return size
@@ -54,8 +54,8 @@ def _smallest_cell(extent: float) -> float:
 
 
 class WaterGrid:
-    """The cells of a survey with a box in metres, from (0, 0) of its frame, whatever the files,
-    with rows from south to north; too many are refused.
+    """The cells of a survey with a box in metres, counted from (0, 0) of its frame, with rows from
+    south to north; too many cells are refused.
     """
 
     def __init__(self, box: Box, cell: float) -> None:

@@ -1,4 +1,4 @@
-"""Dead-level low areas full of returns: water that mirrors the laser, or lets it see the bottom.
+"""Dead-level low areas full of returns: water that reflects the laser, or whose bottom it sees.
 
 They are as even as the ranging of the laser, at one level throughout, and lower than the land all
 round. A flat field drains, so that it slopes or has furrows, and ditches beside it are lower.
@@ -44,7 +44,7 @@ def level_areas(grid: WaterGrid, outside: np.ndarray, least: float) -> np.ndarra
     low = np.zeros(grid.shape, dtype=bool)
     for window, even in regions_of(_even(grid), _LEAST_PART * least, MARGIN + _SQUARE):
         for area in _areas(even, grid.lowest[window], least):
-            # Points of class 9 say more.
+            # Points of class 9 are better evidence.
             is_class = grid.class_in(window)[area].mean() >= _CLASSIFIED
             if not is_class and _is_low(area, grid, window, outside[window]):
                 low[window] |= area

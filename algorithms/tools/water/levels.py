@@ -48,12 +48,12 @@ _WITHIN = 3  # most reaches over which a step goes
 _STEEPER = 4.0
 _BESIDE = 4  # reaches that count on either side
 _LEVEL_REACHES = 1  # fewest of these
-# Metres that a drop counts less for each reach over which it goes: few reaches say better where.
+# Metres that a drop counts less for each reach over which it goes: a short one is located better.
 _BLURRED = 0.1
 _GAP = 1.0  # distance of both parts from where the land says that the step is, cells
 _BANK = 2.0  # width of the banks, cells
-# A step goes straight across if its ends are fewer cells than this apart along the water: single
-# cells of a bank are too high.
+# A step goes straight across if its ends differ by fewer cells than this along the water, which
+# single high cells of a bank explain.
 _SLANTED = 8.0
 # Cells this near to the other part are no shore: they may be its banks.
 _HIDDEN = 4.0
@@ -102,8 +102,8 @@ class Levels(NamedTuple):
 def shore_of(
     water: np.ndarray, ground: np.ndarray, cell: float, hidden: np.ndarray
 ) -> Shore | None:
-    """Return the shore of a region with a margin of `MARGIN` cells round it, but for `hidden` cells
-    such as abutments of bridges; None if no cell of it has ground.
+    """Return the shore of a region with a margin of `MARGIN` cells, without `hidden` cells such as
+    abutments of bridges; None if no cell of it has ground.
     """
     # `ground` is infinite where there is none, and the side of a cell is in metres.
     from scipy.ndimage import distance_transform_cdt
@@ -132,8 +132,8 @@ def shore_of(
 
 
 def surface_of(water: np.ndarray, heights: np.ndarray, cell: float) -> Shore:
-    """Return what is known of the level from points of water, as a shore, from the cells with such
-    points, their heights, and the side of a cell in metres.
+    """Return the surface of water as a shore, from the cells with points of water, their heights,
+    and the side of a cell in metres.
     """
     rows, columns = np.nonzero(water & np.isfinite(heights))
     heights = heights[rows, columns].astype(np.float64)
@@ -167,7 +167,7 @@ def _segments(
 
 
 def _beyond(among: np.ndarray, ground: np.ndarray, places: np.ndarray, side: int) -> np.ndarray:
-    """Return the lowest ground of the nearest cells among some; NaN where none is near."""
+    """Return the lowest ground of the nearest cells of a mask; NaN where none is near."""
     from scipy.spatial import cKDTree
 
     cells = np.argwhere(among)
@@ -183,8 +183,8 @@ def _beyond(among: np.ndarray, ground: np.ndarray, places: np.ndarray, side: int
 def levels_of(
     water: np.ndarray, shore: Shore, surface: np.ndarray, most: float, points: np.ndarray
 ) -> Levels:
-    """Return the level of a lake or of a river, whose shore is at most so far from it, given row,
-    column and height of returns inside, and of those among the points of class 9, shape (k, 3).
+    """Return the level of a lake or of a river with a shore up to `most` metres from it; `surface`
+    and `points`, (k, 3), are row, column and height of returns inside and of class 9.
     """
     # Banks are higher than the water, and all else can be a bridge or a boat: class 9 decides.
     is_sure = len(points) >= FEW_RETURNS
@@ -217,7 +217,7 @@ def _is_shown_level(river: Levels, points: np.ndarray) -> bool:
     if np.ptp(river.heights[seen]) >= _FALL:
         return False
     for chain in river.chains:
-        # Beyond them it may still step, as at a weir.
+        # Upstream or downstream of these points there may still be a step, as at a weir.
         places = np.flatnonzero(seen[chain])
         if not len(places) or np.ptp(places) + 1 < _SHOWN * len(chain):
             return False
@@ -262,7 +262,7 @@ def _river_level(
 
 
 def _off_surface(levels: np.ndarray, heights: np.ndarray, is_sure: bool) -> np.ndarray | None:
-    """Return how far returns lie above levels: NaN if not from the surface, None if too few are."""
+    """Return how far returns of the surface lie above levels, NaN for others; None for too few."""
     off = heights - levels
     if is_sure:
         return off
@@ -301,8 +301,8 @@ class _Step(NamedTuple):
 def parts_of_step(
     water: np.ndarray, levels: Levels, ground: np.ndarray
 ) -> list[tuple[np.ndarray, np.ndarray]]:
-    """Return what a region of a river falls into at its highest step, as the cells of each part and
-    those that are not its shore: nothing if it has none, one part if water goes round it.
+    """Return the parts of a river above and below its highest step, as their cells and those that
+    are not their shore: none without a step, one if water flows round it.
     """
     # `ground` is infinite where there is none.
     reaches = levels.reaches

@@ -27,14 +27,14 @@ class Reaches(NamedTuple):
     """The reaches of a region of water."""
 
     network: Network  # which of them are neighbours
-    places: np.ndarray  # float64, (size, 2): row and column of the middle of each
+    places: np.ndarray  # float64, (size, 2): row and column of the middle of each reach
     # int32, (rows, columns): the reach of each group of cells, also on land, where it is that of
     # the nearest water
     numbers: np.ndarray
     along: np.ndarray  # float64, (rows, columns): distance of groups from one end, in cells
-    middles: np.ndarray  # float64, (size,): the mean of that in each reach
+    middles: np.ndarray  # float64, (size,): the mean of `along` in each reach
     group: int  # side of a group in cells
-    width: float  # mean, in cells, where each chain counts by its area
+    width: float  # mean of the chains, weighted by their area, in cells
     length: float  # of all chains, in cells
 
     def of(self, places: np.ndarray) -> np.ndarray:
@@ -59,12 +59,10 @@ class Reaches(NamedTuple):
             indices = np.flatnonzero(starts[reach] + turn < starts[reach + 1])
             start = reach[indices]
             end = edges[starts[start] + turn, 1]
-            # On the line between the middles of both reaches. Where branches meet, a reach belongs
-            # to all of them, so that the distance from one end of the water does not say enough.
-            line, place = (
-                self.places[end] - self.places[start],
-                places[indices] - self.places[start],
-            )
+            # The share of the way between the middles of both reaches. Where branches meet, a reach
+            # belongs to all of them, so the distance from one end of the water is not enough.
+            line = self.places[end] - self.places[start]
+            place = places[indices] - self.places[start]
             squared = np.maximum((line**2).sum(axis=1), 1e-9)
             share = np.clip((line * place).sum(axis=1) / squared, 0.0, 1.0)
             far = np.hypot(*(place - share[:, None] * line).T)
@@ -135,7 +133,7 @@ def _matrix(ends: np.ndarray, weights: np.ndarray, size: int) -> csr_matrix:
 
 
 def _links(edges: np.ndarray) -> np.ndarray:
-    """Return each pair of numbers that differ once."""
+    """Return the pairs of different numbers, each pair once."""
     return np.unique(np.sort(edges[edges[:, 0] != edges[:, 1]], axis=1), axis=0)
 
 
@@ -178,7 +176,7 @@ def _without_bays(
                 bays[junction] = length, chain[:-1]
         if not bays:
             return owner
-        # Only the shortest at each junction: the next one can be the main water then.
+        # Only the shortest bay at each junction, since the next one can then be the main water.
         for junction, (_, chain) in bays.items():
             owner[np.isin(owner, chain)] = junction
 

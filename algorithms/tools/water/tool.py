@@ -41,7 +41,7 @@ LINE_FIELDS: dict[str, type] = {"ID": int, "KIND": str}
 
 @dataclass(frozen=True)
 class WaterSummary:
-    """What was found."""
+    """The figures of the water that was found."""
 
     lakes: int  # polygons
     rivers: int  # polygons
@@ -54,7 +54,7 @@ class WaterSummary:
 
     @property
     def doubt(self) -> str:
-        """What the terrain below bridges may be, or nothing."""
+        """A warning of bridges without water below them, or an empty text."""
         if not self.dry_bridges:
             return ""
         words = "bridge has no water below it", "bridges have no water below them"
@@ -66,7 +66,7 @@ class WaterSummary:
 
     @property
     def text(self) -> str:
-        """The result as words."""
+        """The result in words."""
         if not self.lakes + self.rivers:
             return (
                 f"no lake of {self.min_area:,g} m² or more, and no river as large and at least"
@@ -82,13 +82,13 @@ class WaterSummary:
 
 @dataclass(frozen=True)
 class SurveyWater:
-    """The water of a survey, found or given, and its breaklines."""
+    """The water of a survey, found or of the user, and breaklines."""
 
     crs: Crs
     bodies: list[WaterBody]  # metres, in the frame with its origin at (0, 0) of the CRS
-    outlines: Sequence[Polygon]  # of these, in the CRS
-    # Of the user: number, and corners in metres, float64 (n, 3), with heights; twice, for either
-    # side, if given without heights.
+    outlines: Sequence[Polygon]  # outlines of `bodies`, in the CRS
+    # Breaklines of the user: number, and corners in metres, float64 (n, 3), with heights. A line
+    # without heights is here twice, with the heights on either side.
     breaklines: Sequence[tuple[int, np.ndarray]] = ()
 
     @property
@@ -147,7 +147,7 @@ def water_of(
     classes: GroundClasses = GroundClasses(),
     progress: Progress = SILENT,
 ) -> tuple[SurveyWater, WaterSummary]:
-    """Find the water of a survey, read in parts, so that memory depends on the area only."""
+    """Find the water of a survey, whose points are read in parts to save memory."""
     if isinstance(sources, SurveyGround):
         survey = sources
     else:
@@ -186,7 +186,7 @@ def water_of(
 def found_water(
     sources: Inputs, ground: GroundClasses, progress: Progress, how: Water = Water()
 ) -> tuple[SurveyWater, WaterSummary]:
-    """Find the water for what is made of classified files, and tell what was found."""
+    """Find the water in classified files, for another tool, and report it."""
     water, summary = water_of(sources, how, ground, progress)
     progress.info(f"Water: {summary.text}.")
     return water, summary
@@ -244,8 +244,8 @@ def _write(
     progress: Progress = SILENT,
 ) -> WaterSummary:
     """Find water and write it into new files."""
-    found, summary = water_of(sources, water, ground, progress.part(0.0, 0.95))
-    found.write(output, breaklines, progress)
+    water_of_survey, summary = water_of(sources, water, ground, progress.part(0.0, 0.95))
+    water_of_survey.write(output, breaklines, progress)
     return summary
 
 
