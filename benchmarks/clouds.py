@@ -31,6 +31,6 @@ def classify_cloud(
     with may_use(resources.thread_count):
         run = OneFile([step], resources, progress)
         run.work_on(FilePoints(cloud, resources), progress.part(0.0, 0.97))
-        result = run.found(progress.part(0.97, 1.0))
+        result = run.result(progress.part(0.97, 1.0))
         inside, selected, _ = run.steps[0].chooser.choose(cloud, step.counts())
     return result.classification, selected & inside

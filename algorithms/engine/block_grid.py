@@ -26,8 +26,8 @@ from .store import code_of, row_and_column
 
 # Metres by which boxes are read wider on each side. Later the points are chosen exactly.
 _MARGIN = 0.1
-# A tile that touches more blocks than this has stray points. Then its points are read to see which
-# blocks they are in.
+# A tile that touches more blocks than this has stray points. Then its points are read to find the
+# blocks that hold them.
 _MOST_PLACES = 400
 # Bytes that a point takes in memory while it waits for its block.
 _BYTES_WAITING = 48
@@ -48,10 +48,12 @@ class BlockIndex(NamedTuple):
 
 @dataclass(frozen=True)
 class BlockGrid:
-    """A step, and the blocks of a survey in which it works; jobs get it, so it lists no files."""
+    """A step, and the blocks of a survey in which it works; it has no files, so that jobs that get
+    it stay small.
+    """
 
     frame: Frame  # of all files, with its origin at (0, 0) of the CRS
-    step: Any  # a `Step`
+    step: Any  # a `Step`, whose module imports this one
     stated: str | None = None  # the CRS that the user states for all files, as for `open_las`
 
     @cached_property
@@ -75,7 +77,7 @@ class BlockGrid:
         return range(west, east + 1), range(south, north + 1)
 
     def holding(self, block: Block) -> BlockIndex:
-        """Return the index of the block that holds a smaller block, or is the same."""
+        """Return the index of the block that a block is a part of, or equal to."""
         share = round(self.blocks.side / block.side)
         return BlockIndex(block.column // share, block.row // share)
 
@@ -102,7 +104,9 @@ def code(place: BlockIndex) -> int:
 
 
 def places_of(grid: BlockGrid, tile: LasFile) -> list[BlockIndex]:
-    """Return the blocks that may hold points of a tile, which may be read, from south to north."""
+    """Return the blocks that may hold points of a tile, from south to north; if the tile has stray
+    points, it is read.
+    """
     columns, rows = grid.places_in(tile.outer_box)
     if len(columns) * len(rows) <= _MOST_PLACES:
         return [BlockIndex(column, row) for row, column in itertools.product(rows, columns)]
@@ -111,17 +115,19 @@ def places_of(grid: BlockGrid, tile: LasFile) -> list[BlockIndex]:
 
 
 def sources_of(grid: BlockGrid, survey: Survey, place: BlockIndex) -> list[Path]:
-    """Return the files that may have points which a block needs."""
+    """Return the files that may have points for a block."""
     return [tile.path for tile in survey.touching(grid.window([place]))]
 
 
 def memory_of(grid: BlockGrid, count: float) -> int:
-    """Return about how many bytes the blocks of `count` points take, if all wait in memory."""
+    """Estimate the bytes of memory that blocks with `count` points take if all points wait in
+    memory.
+    """
     return int(_BYTES_WAITING * count) + grid.blocks.memory(count)
 
 
 def least_memory(grid: BlockGrid, survey: Survey, place: BlockIndex) -> int:
-    """Return about how many bytes a block takes if its points wait on disk, read file by file."""
+    """Estimate the bytes of memory that a block takes if its points wait on disk."""
     window = grid.window([place])
     largest = max((tile.count for tile in survey.touching(window)), default=0)
     return int(_BYTES_READ * largest) + grid.blocks.memory(points_in(survey, window))
@@ -139,7 +145,7 @@ def points_in(survey: Survey, box: Box) -> float:
 
 
 def _share(low: float, high: float, start: float, end: float) -> float:
-    """Return which share of the range from low to high lies between start and end."""
+    """Return the share of the range from low to high that lies between start and end."""
     if high <= low:
         return 1.0
     return max(0.0, min(high, end) - max(low, start)) / (high - low)
@@ -148,8 +154,8 @@ def _share(low: float, high: float, start: float, end: float) -> float:
 def grouped(
     grid: BlockGrid, survey: Survey, places: Sequence[BlockIndex], workers: int, memory: int
 ) -> list[list[BlockIndex]]:
-    """Return blocks in groups whose files are read together, from south to north; `workers` groups
-    have `memory` bytes each, and a block that needs more is alone.
+    """Return blocks in groups whose files are read together, from south to north; a group takes at
+    most `memory` bytes, except for a group of one block, and each worker gets several groups.
     """
     groups, width = _squares(places, 1), 2
     while width <= _LARGEST_GROUP:
@@ -164,7 +170,7 @@ def grouped(
 
 
 def _squares(places: Iterable[BlockIndex], width: int) -> list[list[BlockIndex]]:
-    """Return blocks by the squares of `width` blocks a side in which they lie."""
+    """Group blocks by squares with a side of `width` blocks."""
     squares = defaultdict(list)
     for row, column in sorted((place.row, place.column) for place in places):
         squares[row // width, column // width].append(BlockIndex(column, row))

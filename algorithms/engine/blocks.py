@@ -10,7 +10,7 @@ from __future__ import annotations
 import itertools
 import math
 from dataclasses import dataclass
-from typing import Iterator, NamedTuple
+from typing import Any, Hashable, Iterator, NamedTuple
 
 import numpy as np
 
@@ -22,7 +22,7 @@ from .store import BlockPoints, Corner, Store
 
 # Metres: least side of a block.
 _SIDE = 2000.0
-# A block is at least this many times as wide as a step reaches: points in buffers are seen by
+# A block is at least this many times as wide as a step reaches: points in buffers are read for
 # several blocks, and should be few.
 _REACHES = 4.0
 # Metres: the side of a block is a multiple of this.
@@ -33,13 +33,13 @@ _STEP = 100.0
 # matter.
 _START = -0.00005
 _MOST_POINTS = 10_000_000
-# What the filters take.
+# The memory that the filters take.
 _COST = Cost()
 # Rounding error, in metres, of the borders of leaves.
 _ROUNDING = 1e-5
-# So few that intermediate arrays stay in the processor's cache.
+# Few enough for intermediate arrays to stay in the processor's cache.
 _POINTS_A_PART = 1 << 15
-# How often a block can be quartered. Points are stored in leaves with a sixteenth of its side.
+# How often a block can be quartered: leaves have a sixteenth of its side.
 _LEVELS = 4
 
 
@@ -53,7 +53,7 @@ class Block(NamedTuple):
 
     @property
     def box(self) -> Box:
-        """Smallest x and y, largest x and y in metres; the largest belong to the next blocks."""
+        """Smallest x and y, largest x and y in metres; the largest are outside."""
         west, south = (number * self.side + self.start for number in (self.column, self.row))
         return west, south, west + self.side, south + self.side
 
@@ -79,7 +79,7 @@ class Blocks:
 
     side: float  # metres
     buffer: float  # metres
-    # a block with more is quartered, down to the width of the buffer
+    # A block with more points is quartered, down to the width of the buffer.
     most_points: int = _MOST_POINTS
     start: float = 0.0  # as in `Block`
     cost: Cost = _COST
@@ -91,15 +91,15 @@ class Blocks:
         return cls(side, reach, start=_START, cost=cost)
 
     def memory(self, count: float, area: float = math.inf) -> int:
-        """Return about how many bytes a block takes, or the largest of its parts, by its points and
-        area (m²) with the buffer; at most the area of a whole block counts.
+        """Estimate the bytes of memory that a block, or the largest of its parts, takes, given its
+        number of points and its area in m², both with the buffer.
         """
         area = min(area, (self.side + 2.0 * self.buffer) ** 2)
         share = min(1.0, self.most_points / max(count, 1.0))
         return int(self.cost.a_point * count * share + self.cost.a_square_metre * area * share)
 
     def number(self, places: np.ndarray | float) -> np.ndarray:
-        """Return the columns of the blocks that hold some x, or the rows for some y, as floats."""
+        """Return the columns of the blocks at x coordinates, or the rows at y, as floats."""
         return np.floor((places - self.start) / self.side)
 
     def block(self, column: int, row: int) -> Block:
@@ -107,9 +107,9 @@ class Blocks:
         return Block(column, row, self.side, self.start)
 
     def corner(self, block: Block) -> Corner:
-        """Return the place that becomes (0, 0) while a block, or a part of one, is computed."""
-        # It is near the block, so that no digits are lost to large coordinates, and does not depend
-        # on the extent of the survey, so that the results do not either.
+        """Return the place that is (0, 0) while a block, or a part of a block, is computed."""
+        # The corner is near the block, so that large coordinates do not lose digits. It does not
+        # depend on the extent of the survey, so results do not depend on it either.
         share = round(self.side / block.side)
         return block.column // share * self.side, block.row // share * self.side
 
@@ -139,7 +139,7 @@ class Blocks:
             yield from self._divided(self.block(column, row), store)
 
     def _divided(self, block: Block, store: Store) -> Iterator[Block]:
-        """Yield a block, or the smaller blocks into which it is cut."""
+        """Yield a block, or smaller blocks if it has too many points."""
         most = store.leaves.counts[store.leaves.within(block.box)].sum()
         if most <= self.most_points:
             yield block
@@ -181,3 +181,36 @@ class Blocks:
         is_inside = store.leaves.are_inside(leaves, box)
         part = None if is_inside else (west, south, east, north)
         return store.read(leaves, part, corner, progress, only)
+
+
+class Visit(NamedTuple):
+    """A block while a step works on it."""
+
+    block: Block
+    blocks: Blocks
+    store: Store  # with the points that the step needs
+    is_only: bool  # whether all of these points lie in the block
+    found: dict[Hashable, Any]  # what earlier steps have found out about the block
+
+    @property
+    def corner(self) -> Corner:
+        """The place that is (0, 0) in `contents`; see `Blocks.corner`."""
+        return self.blocks.corner(self.block)
+
+    def contents(self, progress: Progress = SILENT, only: str | None = None) -> BlockPoints:
+        """Return the points of the block and its buffer; for `only`, see `Store.read`."""
+        return self.blocks.contents(self.block, self.store, progress, only)
+
+    def core(self, contents: BlockPoints) -> np.ndarray:
+        """Return which points get a value in this block, bool (n,)."""
+        if self.is_only:
+            return contents.wanted
+        return contents.wanted & self.block.holds(contents.points, self.corner)
+
+    @property
+    def size(self) -> tuple[int, int]:
+        """How many points the block has with its buffer, and how many bytes it takes."""
+        leaves = self.store.leaves
+        touched = leaves.within(self.blocks.window(self.block))
+        count = int(leaves.counts[touched].sum())
+        return count, self.blocks.memory(count, len(touched) * leaves.side**2)

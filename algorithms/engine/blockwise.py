@@ -1,6 +1,4 @@
-"""Runs functions in threads, whose progress and messages come from the calling one; the loop of all
-jobs.
-"""
+"""Runs jobs in threads, and reports their progress and messages in the calling thread."""
 
 from __future__ import annotations
 
@@ -8,60 +6,62 @@ import contextlib
 import itertools
 import threading
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
-from typing import Any, Callable, Collection, Iterator, Sequence
+from typing import Callable, Collection, Iterator, Sequence, TypeVar
 
 from ..core.errors import Cancelled
 from ..core.progress import Notes, Progress
 from ..core.threads import SharedThreads, shared_threads
 
-# Seconds between two looks at running jobs.
+# Seconds between two checks of running jobs.
 _POLL = 0.1
+_Result = TypeVar("_Result")
 
 
 def run_jobs(
-    jobs: Sequence[Callable[[Progress], Any]],
+    jobs: Sequence[Callable[[Progress], _Result]],
     weights: Sequence[float],
     at_once: int,
     threads: int,
     progress: Progress,
-) -> Iterator[tuple[int, Any]]:
-    """Run jobs in threads, and yield number and result of each as it ends; raise its error, or
-    `Cancelled` at once, while the jobs end when they next call their progress.
+) -> Iterator[tuple[int, _Result]]:
+    """Run jobs in threads, and yield the number and the result of each job when it ends; raise the
+    error of a job, or `Cancelled`, at once, and let the other jobs end soon.
     """
-    # The calling thread calls `progress` ten times a second, and no other thread calls it. If it is
-    # one of `SharedThreads`, the jobs use these, otherwise `threads` in all, at least one each.
-    # `weights` are the shares of the jobs in the whole.
+    # Only the calling thread calls `progress`, ten times a second. If the calling thread is one of
+    # `SharedThreads`, the jobs share these, otherwise `threads`. A job has at least one thread.
+    # `weights` are the shares of the jobs in the progress. After an error the other jobs end when
+    # they next report progress.
     outer = shared_threads()
     shared, at_once = outer or SharedThreads(threads), max(1, at_once)
     stop, done, total = threading.Event(), 0.0, max(sum(weights), 1e-9)
-    talks: dict[int, JobProgress] = {}
-    running: dict[Future[Any], int] = {}
+    reports: dict[int, JobProgress] = {}
+    running: dict[Future[_Result], int] = {}
     waiting = iter(range(len(jobs)))
     pool = ThreadPoolExecutor(at_once, thread_name_prefix="block")
 
-    def run(number: int) -> Any:
+    def run(number: int) -> _Result:
         with shared.used():
-            return jobs[number](talks[number])
+            return jobs[number](reports[number])
 
-    def start() -> list[Future[Any]]:
-        # Not all at once, since results that were not fetched yet would fill the memory.
+    def start() -> list[Future[_Result]]:
+        # Not all jobs at once, since results that were not fetched yet would fill the memory.
         for number in itertools.islice(waiting, at_once - len(running)):
-            talks[number] = JobProgress(stop)
+            reports[number] = JobProgress(stop)
             running[pool.submit(run, number)] = number
         return list(running)
 
     def look() -> None:
-        for talk in talks.values():
-            talk.tell(progress)
-        under_way = sum(talk.fraction * weights[number] for number, talk in talks.items())
-        progress((done + under_way) / total)
+        for report in reports.values():
+            report.tell(progress)
+        in_part = sum(report.fraction * weights[number] for number, report in reports.items())
+        progress((done + in_part) / total)
 
     with contextlib.nullcontext() if outer is None else outer.lent():
         try:
             for future in ended(start, look):
                 number = running.pop(future)
                 result = future.result()
-                del talks[number]
+                del reports[number]
                 done += weights[number]
                 yield number, result
         finally:
@@ -70,13 +70,13 @@ def run_jobs(
 
 
 def ended(
-    start: Callable[[], Collection[Future[Any]]], look: Callable[[], None]
-) -> Iterator[Future[Any]]:
-    """Yield jobs as they end until none runs; `start` begins what may run and returns what runs,
-    `look` is called ten times a second and ends the loop if it raises.
+    start: Callable[[], Collection[Future[_Result]]], look: Callable[[], None]
+) -> Iterator[Future[_Result]]:
+    """Yield jobs when they end, until none is running; `start` starts further jobs and returns all
+    that are running, and `look` is called ten times a second and may end the loop by an error.
     """
-    # Threads, processes and the workers of a cluster all have such futures. `look` is called in the
-    # calling thread, also when a job ends, before it is yielded.
+    # Threads, processes and the workers of a cluster all have such futures. `look` is also called
+    # when a job has ended, before the job is yielded.
     while running := start():
         done, _ = wait(running, _POLL, FIRST_COMPLETED)
         look()

@@ -26,7 +26,7 @@ from .store import OTHERS, BlockPoints, Corner, LeafIndex, Marks, Store, smalles
 
 _RECORD = np.dtype([("x", "<i4"), ("y", "<i4"), ("z", "<i4"), ("flags", "u1")])
 _INDEX = np.dtype("<i4")
-# Bits of flags; those with names follow the first of them.
+# Bits of flags; the flags with names have the third bit and those after it.
 _KNOWN = 1
 _WANTED = 2
 _FIRST_NAMED = 4
@@ -45,7 +45,7 @@ class DiskStore(Store):
     the folder of `target`; `kind` is the type of the values.
     """
 
-    # The system removes the files when they are closed or the process ends, even if it is killed.
+    # The system removes the files when they are closed, or when the process ends or is killed.
 
     reads_all = True
 
@@ -58,8 +58,8 @@ class DiskStore(Store):
             self._records, self._orders, self._values, self._cells = (
                 self._files.enter_context(unnamed_file(self._target.parent)) for _ in range(4)
             )
-        # By the parts: the part without its points, its number of points, and the position of the
-        # first that is stored.
+        # For each part: the cloud without its points, its number of points, and the position of its
+        # first stored point.
         self._clouds: list[PointCloud] = []
         self._sizes: list[int] = []
         self._firsts: list[int] = []
@@ -85,7 +85,7 @@ class DiskStore(Store):
         with write_errors_told(self._target):
             self._records.write(records.tobytes())
             self._orders.write(indices.astype(_INDEX).tobytes())
-        # By indices, since an empty slice would keep the points in memory.
+        # An empty array of indices, since an empty slice would keep the points in memory.
         self._clouds.append(part.take(np.zeros(0, dtype=np.intp)))
         self._sizes.append(part.count)
         self._firsts.append(self._stored)
@@ -102,7 +102,7 @@ class DiskStore(Store):
     def pieces(
         self, leaves: np.ndarray, corner: Corner, only: str | None = None
     ) -> tuple[list[int], Callable[[int], BlockPoints]]:
-        """Return the numbers of points of runs of some leaves, and what reads a run."""
+        """Return the numbers of points of the runs of some leaves, and a function to read a run."""
         starts, kind = self._firsts, smallest_integers(self.count)
         frame, runs = self.frame.moved(corner), list(_joined(*self._runs.of(leaves), starts))
         named = _bits(self.flags)
@@ -173,14 +173,14 @@ def _flags(marks: Marks, indices: np.ndarray) -> np.ndarray:
 
 
 def _read(file: BinaryIO, kind: np.dtype, start: int, end: int) -> np.ndarray:
-    """Return some of the values in a file, all of which are of one type."""
+    """Return the values from start to end in a file of values of one type."""
     file.seek(start * kind.itemsize)
     return np.frombuffer(file.read((end - start) * kind.itemsize), dtype=kind)
 
 
 class RowsOnDisk:
-    """An array in a file, shape (rows, ...), of which some rows and columns are read at a time; a
-    file given by its path is opened each time, and only one thread reads an open one.
+    """An array in a file, shape (rows, ...), of which slices are read; a file given by its path is
+    opened for each slice, and an open file is read by one thread only.
     """
 
     def __init__(
@@ -189,20 +189,19 @@ class RowsOnDisk:
         self._file, self._start, self.shape, self._kind = file, start, shape, kind
 
     def __getitem__(self, where: slice | tuple[slice, ...]) -> np.ndarray:
-        """Return what lies in slices of rows and columns."""
         rows, *columns = where if isinstance(where, tuple) else (where,)
-        (first, last, _), beside = rows.indices(self.shape[0]), self.shape[1:]
-        size = math.prod(beside) * self._kind.itemsize
+        (first, last, _), shape_of_row = rows.indices(self.shape[0]), self.shape[1:]
+        size = math.prod(shape_of_row) * self._kind.itemsize
         source = self._file
         opened = source.open("rb") if isinstance(source, Path) else contextlib.nullcontext(source)
         with opened as file:
             file.seek(self._start + first * size)
             content = file.read((last - first) * size)
-        found = np.frombuffer(content, self._kind).reshape(last - first, *beside)
-        return found[(slice(None), *columns)]
+        values = np.frombuffer(content, self._kind).reshape(last - first, *shape_of_row)
+        return values[(slice(None), *columns)]
 
     def __array__(self, *arguments: object, **options: object) -> np.ndarray:
-        """Return all of it."""
+        """Return the whole array."""
         return self[:]
 
 
@@ -226,7 +225,8 @@ class ValuesOnDisk:
     the folder of `target`; an error says if the disk is full.
     """
 
-    # Without that check, writing to the mapped file would end the process.
+    # The file is allocated first: if the disk were full when the mapped file is written, the
+    # process would end.
 
     def __init__(self, target: Path, kind: type, count: int) -> None:
         size = max(count, 1) * np.dtype(kind).itemsize
@@ -242,7 +242,7 @@ class ValuesOnDisk:
 
     def leave_memory(self) -> None:
         """Let the values be on disk only, until they are used again."""
-        # The file keeps them, also those that have not reached the disk yet.
+        # The file keeps them, including values that have not reached the disk yet.
         if hasattr(mmap, "MADV_DONTNEED"):
             self._map.madvise(mmap.MADV_DONTNEED)
 
@@ -250,7 +250,7 @@ class ValuesOnDisk:
 def _joined(
     starts: np.ndarray, counts: np.ndarray, parts: Sequence[int]
 ) -> Iterator[tuple[int, int]]:
-    """Yield start and end of runs; adjacent ones of a part are joined, and long ones are split."""
+    """Yield start and end of runs; adjacent runs of a part are joined, and long runs are split."""
     if not len(starts):
         return
     ends = starts + counts

@@ -1,5 +1,5 @@
-"""One file while a run works on it: its points, in memory or read anew part by part, and what the
-steps of the run found for them, which is its output.
+"""One file while a run works on it: its points, in memory or read again part by part, and the
+results of the steps, which are written into the output.
 """
 
 from __future__ import annotations
@@ -30,17 +30,18 @@ from .memory import GIGABYTE, GivingBack, Resources
 from .memory_store import MemoryStore
 from .step import PointStep, Step
 from .store import Store
+from .summary import TileSummary
 from .values import PointValues, numbered
 
-# Bytes that a cloud in memory takes a point.
+# Bytes per point of a cloud in memory.
 _BYTES_A_POINT_KEPT = 40
-# Bytes that a filter takes for each point that it sees, and the most points that it sees at a time,
-# about those of a full block with its buffer.
+# Bytes per point that a filter works on.
 _BYTES_A_POINT_SEEN = 110
+# The most points that a filter works on at a time: about those of a full block with its buffer.
 _MOST_SEEN = 12_000_000
-# Bytes of memory for a point that is on disk: for its class and other changes.
+# Bytes of memory per point that is on disk: for its class and other changes.
 _BYTES_A_POINT_ON_DISK = 3
-# Most memory that the blocks take when the points are on disk.
+# Bytes that blocks may take at most when the points are on disk.
 _MOST_FOR_BLOCKS = GIGABYTE
 # Largest record length of which whole records are kept in memory. To read them again for
 # writing would take as long as the filter.
@@ -48,8 +49,8 @@ _LONGEST_KEPT = 48
 
 
 def fits_in_memory(count: int, resources: Resources, record_length: int = 0) -> bool:
-    """Return whether all `count` points of a file fit into memory while it is processed, with their
-    records of `record_length` bytes if these are kept as well.
+    """Return whether the points of a file fit into memory while it is processed, with their records
+    of `record_length` bytes if these are kept as well.
     """
     seen = _BYTES_A_POINT_SEEN * min(count, _MOST_SEEN)
     return (_BYTES_A_POINT_KEPT + record_length) * count + seen <= resources.bytes
@@ -73,16 +74,16 @@ class FilePoints:
         self.path, self.count, self.resources = cloud.path, cloud.count, resources
         self._given = resources
         self.is_in_memory = isinstance(cloud, PointCloud)
-        # all points if in memory; else some, once the first were read
+        # All points if in memory; otherwise None, and the first part after it was read.
         self.cloud: Any = cloud if self.is_in_memory else None
         self.file: Any = cloud.file if isinstance(cloud, PointCloud) else cloud
-        # points in memory need none
+        # Points in memory need no target.
         self._target, self._needs_records = target or Path(), needs_records
-        self._files, self._is_told = contextlib.ExitStack(), False
+        self._files, self._was_read = contextlib.ExitStack(), False
         self._mapped: list[ValuesOnDisk] = []
         if not self.is_in_memory:
-            left = max(self.memory_left, resources.bytes // 2)
-            self.resources = Resources.of(resources.threads, min(left, _MOST_FOR_BLOCKS))
+            memory = max(self.memory_left, resources.bytes // 2)
+            self.resources = Resources.of(resources.threads, min(memory, _MOST_FOR_BLOCKS))
 
     @classmethod
     def opened(
@@ -121,7 +122,7 @@ class FilePoints:
 
     @property
     def memory_left(self) -> int:
-        """Bytes that may be used for writing, beside what the points take."""
+        """Bytes that may be used for writing, in addition to what the points take."""
         size = _BYTES_A_POINT_ON_DISK
         if self.is_in_memory:
             records = self.cloud.records
@@ -131,8 +132,8 @@ class FilePoints:
     def parts(
         self, progress: Progress = SILENT, is_last: bool = False
     ) -> Iterator[tuple[slice, PointCloud]]:
-        """Yield the points with their indices in parts that are always the same; after `is_last` it
-        is not worth keeping them on disk.
+        """Yield the points with their indices, in the same parts each time; if this is the last
+        reading, a compressed file is not unpacked for it.
         """
         if self.is_in_memory:
             for where, part in self.cloud.parts():
@@ -142,17 +143,19 @@ class FilePoints:
         if not is_last and self._may_unpack():
             self._unpack(progress.part(0.0, 0.7))
             progress = progress.part(0.7, 1.0)
-        told = progress.quiet() if self._is_told else progress
-        self._is_told = True
-        for where, part in numbered(read_parts(self.file, told)):
+        # Reading reports what is wrong with the file only the first time.
+        reading = progress.quiet() if self._was_read else progress
+        self._was_read = True
+        for where, part in numbered(read_parts(self.file, reading)):
             self.cloud = self.cloud or part
             yield where, part
 
     def _may_unpack(self) -> bool:
         """Return whether the file is compressed, and the disk has room for its records."""
         las = self.file
-        is_packed = las.is_compressed and las.unpacked is None
-        return is_packed and has_room(self._target.parent, las.count)
+        if not las.is_compressed or las.unpacked is not None:
+            return False
+        return has_room(self._target.parent, las.count)
 
     def _unpack(self, progress: Progress) -> None:
         """Decompress the file into a temporary one, from which it is read from now on."""
@@ -162,7 +165,7 @@ class FilePoints:
             self.file = unpack(self.file, file, columns, progress)
 
     def sparing(self, progress: Progress) -> Progress:
-        """Return a progress that keeps memory small while it is called, if points are on disk."""
+        """Return a progress that also gives memory back to the system, if points are on disk."""
         if self.is_in_memory:
             return progress
 
@@ -180,7 +183,7 @@ class FilePoints:
         return self._mapped[-1].values
 
     def as_stored(self, where: slice, part: PointCloud) -> PointCloud:
-        """Return points as a store gets them, whose classes need not stay in memory."""
+        """Return a part as it is stored: a view of the cloud in memory, without new classes."""
         return self.cloud.take(where) if self.is_in_memory else part
 
     def store_for(self, step: Step) -> Store:
@@ -195,24 +198,24 @@ class FilePoints:
 
 def place_of(las: LasFile) -> Place:
     """Return where the points of a file lie, according to its header."""
-    # The header of one file can be wrong: without a sound extent nothing is refused.
+    # The header can be wrong: without a valid extent nothing is refused.
     return Place(str(las.path), read_crs(las), las.outer_box if las.states_extent else None)
 
 
 def copies_all_else(las: LasFile, target: Path, steps: Sequence[PointStep]) -> bool:
-    """Return whether only the layers of classes are written anew, and all other bytes copied."""
+    """Return whether only the layers of classes are written, and all other bytes are copied."""
     if remembers(las) or not all(step.only_classes for step in steps):
         return False
     return layers_kept(las, target) is not None
 
 
 class TileResult:
-    """What the steps of a run found for the points of a file, in the order of the steps."""
+    """The results of the steps of a run for the points of a file."""
 
     def __init__(self, points: FilePoints, values: Sequence[PointValues]) -> None:
         self._points, self._values = points, values
-        steps = [found.step for found in values]
-        # what each step found beside the classes
+        steps = [of_step.step for of_step in values]
+        # The results of each step, except for classes.
         self.results = [step.result(points.path, points.allocate) for step in steps]
         self.classification: np.ndarray | None = None
         if any(step.gives_classes for step in steps):
@@ -222,21 +225,21 @@ class TileResult:
         self.class_counts = np.zeros(256, dtype=np.int64)
 
     @classmethod
-    def found(
+    def collected(
         cls, points: FilePoints, values: Sequence[PointValues], progress: Progress = SILENT
     ) -> TileResult:
-        """Return what was found for all points, which are read once more."""
+        """Read all points once more, and return the results for them."""
         result = cls(points, values)
         for where, part in points.parts(points.sparing(progress), is_last=True):
             result._add(where, part)
-        for found in values:
-            found.check()
+        for of_step in values:
+            of_step.check()
         return result
 
     def _add(self, where: slice, part: PointCloud) -> None:
         """Add the next points of the file."""
-        for result, found in zip(self.results, self._values):
-            before, values = part, found.of(where, part)
+        for result, of_step in zip(self.results, self._values):
+            before, values = part, of_step.of(where, part)
             part = result.applied(before, values)
             result.add(where, before, part, values)
         if self.classification is not None:
@@ -249,12 +252,12 @@ class TileResult:
         self.class_counts += count_classes(classes if kept is None else classes[kept[where]])
 
     def check(self, progress: Progress) -> None:
-        """Refuse to write one of many files without a result."""
-        for result, found in zip(self.results, self._values):
-            result.check(progress, found.failure)
+        """Report on one of many files, or refuse it if it has no result."""
+        for result, values in zip(self.results, self._values):
+            result.check(progress, values.failure)
 
     def tell(self, progress: Progress) -> None:
-        """Report what the steps found."""
+        """Report the results of the steps."""
         for result in self.results:
             result.tell(progress)
 
@@ -270,9 +273,9 @@ class TileResult:
             dimension = ExtraDimension(REMEMBERED, "Before changes by hand", self._remembered)
             edits = dataclasses.replace(edits, remembered=dimension)
         for result in self.results:
-            found = vars(result.edits(self._points.cloud, progress))
-            given = {name: value for name, value in found.items() if value is not None}
-            edits = dataclasses.replace(edits, **given)
+            fields = vars(result.edits(self._points.cloud, progress))
+            changes = {name: value for name, value in fields.items() if value is not None}
+            edits = dataclasses.replace(edits, **changes)
         return edits
 
     def write(self, target: Path, progress: Progress) -> None:
@@ -281,6 +284,6 @@ class TileResult:
         progress = points.sparing(progress)
         write_changed(points.file, target, edits, progress, points.cloud, points.memory_left)
 
-    def summary(self, name: str) -> Any:
-        """Return the summary of the output `name`, that of the first step."""
+    def summary(self, name: str) -> TileSummary:
+        """Return the summary of the output `name`, as the first step makes it."""
         return self.results[0].summary(name, by_class(self.class_counts))

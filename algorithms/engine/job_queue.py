@@ -7,7 +7,7 @@ import re
 from concurrent.futures import BrokenExecutor, CancelledError, Future
 from dataclasses import replace
 from pathlib import Path
-from typing import Any, Collection, Sequence, Union
+from typing import Collection, Sequence, Union
 
 from ..core.errors import BareEarthError
 from ..core.progress import Progress
@@ -15,7 +15,7 @@ from ..core.temporary import remove
 from .blockwise import ended
 from .jobs import BlockJob, JobResult, TileJob
 from .memory import GIGABYTE
-from .summary import JobCost
+from .summary import JobCost, TileSummary
 from .workers import Running, Workers, scheduler_gone
 
 AnyJob = Union[BlockJob, TileJob]
@@ -40,33 +40,34 @@ class JobQueue:
         progress: Progress,
         kept: Collection[Path] = (),
     ) -> None:
-        self.done: list[Any] = []  # the summaries of the tiles that were written
-        self.empty_count = 0  # tiles with nothing to write
-        self.failures: dict[Path, str] = {}  # why the other tiles were not written, by their inputs
-        self.lost: list[str] = []  # why blocks were not done
-        self.costs: list[JobCost] = []  # of the jobs that were done
+        self.done: list[TileSummary] = []  # of the files that were written
+        self.empty_count = 0  # files without points to write
+        self.failures: dict[Path, str] = {}  # why the other files were not written, by input
+        self.lost: list[str] = []  # why blocks failed
+        self.costs: list[JobCost] = []  # of the finished jobs
         self._workers, self._progress = workers, progress
         # Jobs that were running when a worker died. They are repeated one by one, to find the one
-        # that kills its worker. The last one that was repeated:
+        # that kills its worker.
         self._suspects: collections.deque[AnyJob] = collections.deque()
-        self._repeated: AnyJob | None = None
-        # Jobs that wait for nothing: the blocks of the first step, and all others.
+        self._repeated: AnyJob | None = None  # the last job that was repeated
+        # Jobs that can start: the blocks of the first step, and all others.
         self._blocks: collections.deque[AnyJob] = collections.deque()
         self._ready: collections.deque[AnyJob] = collections.deque()
-        # Results of blocks that are not there yet, and how many jobs use each result.
+        # Results of blocks that do not exist yet.
         self._missing = {file for job in blocks for file in job.output.files.values()}
-        # Results that lack what could not be done round them.
+        # Results that were made without those of failed blocks near them.
         self._partial: set[Path] = set()
+        # How many jobs use a result.
         self._uses = collections.Counter(kept)
-        # The jobs that wait for a result, and for how many results they wait.
+        # The jobs that wait for a result, and for how many results a job waits.
         self._waiting: dict[Path, list[AnyJob]] = collections.defaultdict(list)
         self._lacks: dict[AnyJob, int] = {}
         jobs: list[AnyJob] = [*blocks, *tiles]
         for job in jobs:
             self._add(job, self._blocks if isinstance(job, BlockJob) else self._ready)
         self._running: dict[Running, AnyJob] = {}
-        # Messages with their files ("" for blocks), by kind, text without numbers, and whether they
-        # are about files.
+        # The texts of messages, each with the name of its file ("" for blocks), by kind, text
+        # without numbers, and whether the message is about a file.
         self._messages: dict[tuple[str, str, bool], dict[str, str]] = {}
         self._total = max(sum(map(_weight, jobs)), 1e-9)
         self._finished = 0.0
@@ -87,7 +88,7 @@ class JobQueue:
         try:
             for future in ended(self._start, self._look):
                 running = next((run for run in self._running if run.future is future), None)
-                if running is not None:  # otherwise it is suspected meanwhile
+                if running is not None:  # otherwise the job has become a suspect meanwhile
                     self._end(running)
             self._tell()
             self._tell_of_memory()
@@ -127,7 +128,7 @@ class JobQueue:
         try:
             outcome = running.future.result()
         except BrokenExecutor:
-            # Something else may have killed it the first time, even if it ran alone.
+            # The first time something else may have killed the worker, even if the job ran alone.
             is_guilty = job is self._repeated and len(self._running) == 1
             self._suspect_all()
             if not is_guilty:
@@ -159,7 +160,7 @@ class JobQueue:
         files = job.output.files.values()
         self._missing.difference_update(files)
         for user in [user for file in files for user in self._waiting.pop(file, ())]:
-            if user not in self._lacks:  # it is given up
+            if user not in self._lacks:  # the job was given up
                 continue
             self._lacks[user] -= 1
             if outcome.failure is not None:
@@ -175,7 +176,7 @@ class JobQueue:
         self._release(job)
 
     def _marked(self, job: AnyJob) -> AnyJob:
-        """Return a job whose output a later run makes again, if it lacks something."""
+        """Return a job; if its results will be partial, mark it so that a later run repeats it."""
         if self._partial.isdisjoint(job.needs):
             return job
         if isinstance(job, TileJob):
@@ -201,14 +202,14 @@ class JobQueue:
         self._release(job)
 
     def _release(self, job: AnyJob) -> None:
-        """Remove the results of blocks that nobody else needs."""
+        """Remove the results of blocks that no other job needs."""
         for file in job.needs:
             self._uses[file] -= 1
             if not self._uses[file] and file not in self._missing:
                 remove(file)
 
     def _keep_messages(self, job: AnyJob, outcome: JobResult) -> None:
-        """Collect the messages of a job; without those that only give counts of a tile."""
+        """Collect the messages of a job, of jobs on files only the warnings."""
         name = job.tile.path.name if isinstance(job, TileJob) else ""
         for kind, text in outcome.messages:
             if not name or kind == "warning":
@@ -246,10 +247,10 @@ class JobQueue:
 
 
 def _listed(names: Sequence[str]) -> str:
-    """Return the first names of files, and how many there are beyond."""
+    """Return the first names, and how many more there are."""
     shown = ", ".join(sorted(names)[:_MOST_NAMES])
-    beyond = len(names) - _MOST_NAMES
-    return f"{shown} and {beyond:,} more" if beyond > 0 else shown
+    more = len(names) - _MOST_NAMES
+    return f"{shown} and {more:,} more" if more > 0 else shown
 
 
 def _without_numbers(text: str) -> str:

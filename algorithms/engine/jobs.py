@@ -8,10 +8,10 @@ from __future__ import annotations
 import contextlib
 import time
 from collections import defaultdict
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
-from typing import Any, Iterator, NamedTuple
+from typing import Iterator, NamedTuple
 
 import numpy as np
 
@@ -30,7 +30,7 @@ from .file_points import FilePoints, TileResult, copies_all_else, memory_of_file
 from .manifest import Fingerprint, write_record
 from .memory import PeakMemory, Resources
 from .store import Store
-from .summary import JobCost
+from .summary import JobCost, TileSummary
 from .unpacking import Unpacking
 from .values import BlockFiles, BlockValues, applied
 from .visits import Work
@@ -39,7 +39,7 @@ from .visits import Work
 class JobResult(NamedTuple):
     """The return value of a job and its messages, as kind and text, or why it failed."""
 
-    result: Any
+    result: TileSummary | None  # of a job that wrote a file
     messages: tuple[tuple[str, str], ...] = ()
     failure: str | None = None
     cost: JobCost | None = None  # None if it failed
@@ -57,25 +57,25 @@ class Share(NamedTuple):
 class Job:
     """Base of the jobs."""
 
-    before: tuple[BlockFiles, ...]  # what the steps before have found round its points
+    before: tuple[BlockFiles, ...]  # the results of earlier steps for its points
     unpacking: Unpacking | None  # where inputs wait uncompressed
 
     @property
     def needs(self) -> list[Path]:
-        """The files that must be there before it starts."""
-        return [file for found in self.before for file in found.files.values()]
+        """The files that must exist before the job starts."""
+        return [file for results in self.before for file in results.files.values()]
 
     @property
     def title(self) -> str:
-        """What it is called in reports."""
+        """The name of the job in reports."""
         return "blocks"
 
     def planned(self, resources: Resources) -> int:
-        """Return the bytes of memory that it takes at most, as far as is known before."""
+        """Estimate the largest number of bytes of memory that the job takes."""
         raise NotImplementedError
 
-    def run(self, share: Share, progress: Progress) -> Any:
-        """Do the job, and return a summary of what it wrote."""
+    def run(self, share: Share, progress: Progress) -> TileSummary | None:
+        """Do the job; return the summary of a file that it wrote."""
         raise NotImplementedError
 
 
@@ -84,9 +84,9 @@ class BlockJob(Job):
     """A job that works on the points of some blocks."""
 
     output: BlockFiles  # for the results of these blocks
-    sources: tuple[Path, ...]  # that may have points for these blocks
+    sources: tuple[Path, ...]  # files that may have points for these blocks
     count: float  # of points in the blocks, estimated
-    # those of the sources that hold already what was found
+    # Sources that already have the results of the earlier steps.
     finished: frozenset[Path] = frozenset()
 
     def split(self) -> list[BlockJob]:
@@ -94,18 +94,18 @@ class BlockJob(Job):
         count, jobs = self.count / len(self.output.files), []
         for place, file in self.output.files.items():
             window = self.output.grid.window([place])
-            before = tuple(found.within(window) for found in self.before)
+            before = tuple(results.within(window) for results in self.before)
             output = replace(self.output, files={place: file})
             jobs.append(replace(self, output=output, count=count, before=before))
         return jobs
 
     def planned(self, resources: Resources) -> int:
-        """Return the bytes of memory that it takes at most, as far as is known before."""
+        """Estimate the largest number of bytes of memory that the job takes."""
         return min(memory_of(self.output.grid, self.count), resources.bytes)
 
     def clouds(self, store: Store, progress: Progress) -> Iterator[PointCloud]:
-        """Yield the points of each file that the blocks need, with what was found before; part by
-        part if they are to wait on disk.
+        """Yield the points of each file that the blocks need, with the results of earlier steps, in
+        parts if the points will wait on disk.
         """
         grid = self.output.grid
         window = grid.window(self.output.files)
@@ -118,10 +118,10 @@ class BlockJob(Job):
                     las = self.unpacking.of(las, part.part(0.0, 0.7).quiet())
                 change = None
                 if self.before and source not in self.finished:
-                    values = [BlockValues(found, las, are_all=False) for found in self.before]
+                    values = [BlockValues(files, las, are_all=False) for files in self.before]
                     change = partial(applied, values)
-                # Parts that are stored cannot be left out again: only what was decompressed once,
-                # and so is sound, is stored part by part.
+                # Stored parts cannot be removed again. So only a file that is known to be sound,
+                # since it was decompressed before, is stored in parts.
                 is_sound = las.unpacked is not None or not las.is_compressed
                 if isinstance(store, DiskStore) and is_sound:
                     clouds = parts_in_window(las, window, part.quiet(), change)
@@ -138,26 +138,28 @@ class BlockJob(Job):
 
     @contextlib.contextmanager
     def work(self, share: Share) -> Iterator[Work]:
-        """Yield the step with an empty store: on disk if the points do not fit into memory."""
-        grid, (beside, *_) = self.output.grid, self.output.files.values()
+        """Yield the step with an empty store, which is on disk if the points do not fit into
+        memory.
+        """
+        grid, (file, *_) = self.output.grid, self.output.files.values()
         if memory_of(grid, self.count) <= share.resources.bytes:
             yield Work.in_memory(grid.step, grid.frame)
             return
-        with DiskStore(beside, grid.frame, grid.blocks, grid.step.kind) as store:
+        with DiskStore(file, grid.frame, grid.blocks, grid.step.kind) as store:
             yield Work(grid.step, store)
 
     def _is_wanted(self, block: Block) -> bool:
-        """Return whether a block, or a part of one, is one of this job."""
+        """Return whether a block, or the block that it is a part of, belongs to this job."""
         return self.output.grid.holding(block) in self.output.files
 
 
 @dataclass(frozen=True, eq=False)
 class PointJob(BlockJob):
-    """A job that finds a value for each point of some blocks, and stores it by block and file."""
+    """A job that computes a value for each point of some blocks, stored by block and file."""
 
     def run(self, share: Share, progress: Progress) -> None:
-        """Find the values, and write those of each block."""
-        # Files, and for each of their points the number of its block, from 1 on, or 0.
+        """Compute the values, and write one file for each block."""
+        # The path of each part, and what `_numbers` returns for its points.
         parts: list[tuple[Path, np.ndarray]] = []
         with self.work(share) as work:
             for cloud in self.clouds(work.store, progress.part(0.0, 0.3)):
@@ -179,7 +181,7 @@ class PointJob(BlockJob):
                 self.output.write(place, of_files, failure)
 
     def _numbers(self, cloud: PointCloud) -> np.ndarray:
-        """Return for each point the number of its block in this job, from 1 on, or 0."""
+        """Return for each point the number of its block in this job, from 1; 0 for other blocks."""
         codes, numbers = self.output.grid.codes(cloud), np.zeros(cloud.count, dtype=np.uint8)
         for number, place in enumerate(self.output.files, start=1):
             numbers[codes == code(place)] = number
@@ -188,28 +190,28 @@ class PointJob(BlockJob):
 
 @dataclass(frozen=True, eq=False)
 class SinkJob(BlockJob):
-    """A job that finds the results of a sink for some blocks."""
+    """A job that computes the results of a sink for some blocks."""
 
     def run(self, share: Share, progress: Progress) -> None:
-        """Find them, and write those of each block."""
+        """Compute the results, and write one file for each block."""
         grid = self.output.grid
         with self.work(share) as work:
             for cloud in self.clouds(work.store, progress.part(0.0, 0.5)):
                 work.add(cloud)
-            found: dict[BlockIndex, list[Any]] = defaultdict(list)
+            results: dict[BlockIndex, list[object]] = defaultdict(list)
             done = work.done(share.resources, progress.part(0.5, 0.95), self._is_wanted)
             for block, result in done or ():
-                found[grid.holding(block)].append(result)
+                results[grid.holding(block)].append(result)
             progress(1.0)  # ends a job of a run that was cancelled, before it writes
             # Results may still wait in the store.
             for place, file in self.output.files.items():
                 with replacing(file) as temporary, temporary.open("wb") as stream:
-                    grid.step.save(found[place], stream)
+                    grid.step.save(results[place], stream)
 
 
 @dataclass(frozen=True, eq=False)
 class TileJob(Job):
-    """A job that writes a file with what the steps found in the blocks that may hold its points."""
+    """A job that writes a file with the results of the blocks that may hold its points."""
 
     tile: LasFile
     target: Path
@@ -217,29 +219,29 @@ class TileJob(Job):
 
     @property
     def title(self) -> str:
-        """What it is called in reports."""
+        """The name of the job in reports."""
         return self.tile.path.name
 
     def planned(self, resources: Resources) -> int:
-        """Return the bytes of memory that it takes at most, as far as is known before."""
+        """Estimate the largest number of bytes of memory that the job takes."""
         return min(memory_of_file(self.tile), resources.bytes)
 
-    def run(self, share: Share, progress: Progress) -> Any:
-        """Write the file; return the summary of the step, or None if there is nothing to write."""
-        las, steps = self.tile, [found.grid.step for found in self.before]
+    def run(self, share: Share, progress: Progress) -> TileSummary | None:
+        """Write the file; return its summary, or None if no point is to be written."""
+        las, steps = self.tile, [results.grid.step for results in self.before]
         if self.unpacking is not None:
             las = self.unpacking.of(las, progress.part(0.0, 0.3))
-        values = [BlockValues(found, las) for found in self.before]
+        values = [BlockValues(results, las) for results in self.before]
         needs_records = not copies_all_else(las, self.target, steps)
         reading, resources = progress.part(0.3, 0.4).quiet(), share.resources
         with FilePoints.opened(las, self.target, resources, needs_records, reading) as points:
-            result = TileResult.found(points, values)
+            result = TileResult.collected(points, values)
             result.check(progress)
             if result.is_empty:
                 return None
             result.write(self.target, progress.part(0.4, 1.0))
         summary = result.summary(self.target.name)
-        write_record(self.target, self.fingerprint, asdict(summary))
+        write_record(self.target, self.fingerprint, vars(summary))
         return summary
 
 

@@ -8,7 +8,7 @@ import hashlib
 import json
 import os
 from pathlib import Path
-from typing import Any, Dict, Iterable, List, Sequence
+from typing import Any, Dict, Iterable, List, Sequence, Union
 
 from ..core.errors import BareEarthError
 from ..core.files import replacing
@@ -20,11 +20,11 @@ _WORK = "work"
 _LONGEST_NAME = 250
 
 # The result of `fingerprint_of`; two outputs are equal if theirs are.
-Fingerprint = Dict[str, Any]
+Fingerprint = Dict[str, object]
 
 
 def folders_of(folder: Path) -> tuple[Path, Path, Path]:
-    """Return the folders of the outputs, of the records, and of the results of blocks."""
+    """Return the folders of the outputs, of their records, and of the results of blocks."""
     return folder, folder / _FOLDER, folder / _FOLDER / _WORK
 
 
@@ -34,7 +34,7 @@ def names_beside(target: str) -> list[str]:
 
 
 # Path, size and time of a file, which show whether it has changed.
-Stamp = List[Any]
+Stamp = List[Union[str, int]]
 
 
 def stamp_of(path: Path) -> Stamp:
@@ -63,21 +63,21 @@ def fingerprint_of(
 def block_file(
     grids: Sequence[BlockGrid], folder: Path, place: BlockIndex, sources: Iterable[Stamp]
 ) -> Path:
-    """Return the file for the result of a block of the last of some grids; its name depends on all
-    that the result depends on.
+    """Return the file for the result of a block of the last grid, with a name that depends on
+    everything that the result depends on.
     """
     content = {"steps": _settings(grids), "place": list(place), "files": list(sources)}
     return folder / f"{short_name(json.dumps(content, sort_keys=True).encode())}.npz"
 
 
 def short_name(content: bytes) -> str:
-    """Return 12 characters for the name of a file in a work folder that depends on its content."""
-    # They are few, since Windows allows most programs 259 characters for a whole path, and hold 60
+    """Return a name of 12 characters that depends on some content, for a file in a work folder."""
+    # Short, since Windows allows most programs 259 characters for a whole path. The name has 60
     # bits: two of a million files have the same name once in two million runs.
     return base64.b32encode(hashlib.sha256(content).digest())[:12].decode().lower()
 
 
-def _settings(grids: Sequence[BlockGrid]) -> list[dict[str, Any]]:
+def _settings(grids: Sequence[BlockGrid]) -> list[dict[str, object]]:
     """Return the settings of the steps of grids, and the version."""
     from ..core.version import __version__
 
@@ -94,7 +94,9 @@ def _settings(grids: Sequence[BlockGrid]) -> list[dict[str, Any]]:
 
 
 def write_record(target: Path, fingerprint: Fingerprint, summary: dict[str, Any]) -> None:
-    """Write the record of an output after it, with `fingerprint_of` before its inputs were read."""
+    """Write the record of an output after the output; the fingerprint is from before its inputs
+    were read.
+    """
     content = {"made_of": fingerprint, "size": target.stat().st_size, "summary": summary}
     with replacing(_place(target)) as temporary:
         temporary.write_text(json.dumps(content, indent=1) + "\n", encoding="utf-8")

@@ -13,11 +13,11 @@ from ..las.cloud import PointCloud
 from .blocks import Blocks
 from .store import OTHERS, BlockPoints, Corner, LeafIndex, Marks, Store, code_of, smallest_integers
 
-# Points whose flags are looked through at a time, between two looks at the progress.
+# Points whose flags are read between two calls of the progress.
 _CHOSEN = 1 << 19
-# Points that are sorted by leaves at a time, and those of a piece that is read: their arrays stay
-# in the processor's cache.
+# Points that are sorted by leaves at a time; their arrays stay in the processor's cache.
 _SORTED = 1 << 16
+# Points of a piece that is read, for the same reason.
 _READ = 1 << 15
 
 
@@ -48,7 +48,8 @@ class MemoryStore(Store):
         """Finish adding points."""
         self._values = np.zeros(self.count, dtype=self._value_kind)
         choosing = progress.part(0.0, 0.3).shares(*[1.0] * len(self._parts))
-        # Selected points of each part, sorted by leaves; the index of runs counts through all.
+        # The indices of the selected points of each part, sorted by leaves. Positions in the leaf
+        # index are counted through all parts.
         self._orders = [
             _indices(cloud, marks.selected, share)
             for (cloud, marks), share in zip(self._parts, choosing)
@@ -108,7 +109,7 @@ class MemoryStore(Store):
         )
 
     def _chosen(self, number: int, indices: np.ndarray, only: str) -> np.ndarray:
-        """Return those of some points of a part that `only` names."""
+        """Return the points of a part, among some, that `only` asks for; see `Store.read`."""
         _, marks = self._parts[number]
         if only == OTHERS:
             return indices if marks.known is None else indices[~marks.known[indices]]

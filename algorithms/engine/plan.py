@@ -1,19 +1,19 @@
-"""The plan of a run on many files: which blocks and files are to be done, and from what.
+"""The plan of a run on many files: which blocks and files are to be done, and from which inputs.
 
-Each block of each step has a file for its result, whose name follows from all that the result
-depends on: the steps up to this one, the input files, and the version. So what is there already is
-not done again.
+The result of a block of a step has a file of its own. Its name depends on everything that the
+result depends on: the steps up to this one, the input files, and the version. So a result that
+exists already is not computed again.
 """
 
 from __future__ import annotations
 
 import dataclasses
 from collections import defaultdict
-from functools import cached_property
+from functools import cached_property, partial
 from operator import attrgetter
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any, Callable, Iterable, Iterator, Mapping, Sequence, TypeVar
+from typing import Callable, Iterable, Iterator, Mapping, Sequence, TypeVar
 
 from ..core.errors import BareEarthError
 from ..core.progress import SILENT, Progress
@@ -41,6 +41,7 @@ from .manifest import (
     stamp_of,
 )
 from .step import PointStep
+from .summary import TileSummary
 from .unpacking import Unpacking
 from .values import BlockFiles, BlockValues, numbered, with_values
 from .workers import Workers
@@ -49,47 +50,48 @@ _Job = TypeVar("_Job", bound=BlockJob)
 
 
 class _PlannedBlock:
-    """A block of one of the steps of a plan, which are counted from 0, and what it depends on."""
+    """A block of a step of a plan, and what its result depends on."""
 
+    # `step` is the number of the step, from 0.
     def __init__(self, plan: Plan, step: int, place: BlockIndex) -> None:
         self._plan, self.step, self.place = plan, step, place
         self._grid, self._survey = plan.grids[step], plan.surveys[step]
 
     @property
     def key(self) -> tuple[int, BlockIndex]:
-        """What blocks are sorted by."""
+        """The key by which blocks are sorted."""
         return self.step, self.place
 
     @cached_property
     def sources(self) -> list[Path]:
-        """The files with points that it may need."""
+        """The files that may have points for the block."""
         return sources_of(self._grid, self._survey, self.place)
 
     @cached_property
     def needs(self) -> frozenset[_PlannedBlock]:
-        """The blocks of earlier steps, of those that change classes, whose results it needs."""
+        """The blocks of earlier steps that change classes, whose results this block needs."""
         box, plan = self._grid.window([self.place]), self._plan
-        tiles, found = plan.seen.touching(box), []
+        tiles, blocks = plan.seen.touching(box), []
         for number in filter(plan.gives_classes, range(self.step)):
             places = {place for tile in tiles for place in plan.places_of(tile, number)}
-            found += [plan.block(number, place) for place in plan.grids[number].among(places, box)]
-        return frozenset(found)
+            blocks += [plan.block(number, place) for place in plan.grids[number].among(places, box)]
+        return frozenset(blocks)
 
     @cached_property
     def inputs(self) -> frozenset[Path]:
-        """The files that affect its result."""
+        """The files that affect the result."""
         return frozenset(self.sources).union(*(block.inputs for block in self.needs))
 
     @cached_property
     def file(self) -> Path:
-        """The file for its result."""
+        """The file for the result."""
         plan, end = self._plan, self.step + 1
         stamps = plan.stamps_of(self.inputs)
         return block_file(plan.grids[:end], plan.folder, self.place, stamps)
 
 
 class Plan:
-    """What a run of steps, which see what those before them found, has to do on many files."""
+    """The blocks and files that a run of steps on many files has to do."""
 
     def __init__(
         self,
@@ -102,20 +104,20 @@ class Plan:
         self.steps, self.folder, self._targets = steps, folder, targets
         frame = survey_frame(survey.crs)
         self.grids = [BlockGrid(frame, step, survey.stated) for step in steps]
-        # Before any of them is read.
+        # Taken before any file is read.
         self._stamps = {tile.path: stamp_of(tile.path) for tile in survey.tiles}
         self._blocks: dict[tuple[int, BlockIndex], _PlannedBlock] = {}
         self._places: dict[tuple[Path, int], list[BlockIndex]] = {}
-        # The files that affect those in several blocks, which many small files share.
+        # What `_inputs_of` returns, by blocks: many small files touch the same blocks.
         self._inputs: dict[tuple[_PlannedBlock, ...], list[Path]] = {}
-        self.kept: list[Any] = []  # summaries of the outputs that an earlier run finished
+        self.kept: list[TileSummary] = []  # of the outputs that an earlier run finished
         self.failures: dict[Path, str] = {}  # why files cannot be done
         self.seen = dataclasses.replace(
             survey, tiles=tuple(t for t in survey.tiles if not any(step.skips(t) for step in steps))
         )
-        # files of which no point is to be written, by their headers
+        # Files of which no point is to be written, as their headers show.
         self.empty_count = len(survey.tiles) - len(self.seen.tiles)
-        # Their points take part only in the first step.
+        # The points of these files take part only in the first step.
         self.surveys = [survey, *[self.seen] * (len(steps) - 1)]
         self.todo: list[LasFile] = []  # the files that are to be done
         for number, tile in enumerate(self.seen.tiles, start=1):
@@ -129,11 +131,11 @@ class Plan:
             progress(number / len(self.seen.tiles))
 
     def gives_classes(self, number: int) -> bool:
-        """Return whether a step changes classes, so that others must see what it found."""
+        """Return whether a step changes classes, so that later steps need its results."""
         return self.steps[number].gives_classes
 
     def stamps_of(self, paths: Iterable[Path]) -> list[Stamp]:
-        """Return what shows whether some inputs have changed."""
+        """Return the stamps of some inputs, which show whether these have changed."""
         return [self._stamps[path] for path in sorted(paths)]
 
     def block(self, step: int, place: BlockIndex) -> _PlannedBlock:
@@ -141,7 +143,7 @@ class Plan:
         return self._blocks.setdefault((step, place), _PlannedBlock(self, step, place))
 
     def places_of(self, tile: LasFile, step: int) -> list[BlockIndex]:
-        """Return where the blocks of a step lie that may hold points of a file."""
+        """Return the indices of the blocks of a step that may hold points of a file."""
         key = tile.path, step
         if key not in self._places:
             self._places[key] = places_of(self.grids[step], tile)
@@ -160,20 +162,20 @@ class Plan:
         return self._inputs[together]
 
     def _fingerprint(self, tile: LasFile) -> Fingerprint:
-        """Return what the output of a file is made from."""
+        """Return everything that the output of a file depends on."""
         stamps, target = self.stamps_of(self._inputs_of(tile)), self._targets[tile.path]
         return fingerprint_of(self.grids, tile.path, stamps, target)
 
     def keep_finished(self, resume: bool, progress: Progress) -> None:
-        """Remove files whose outputs an earlier run finished from those to do, if `resume`."""
+        """If `resume`, do not do files whose outputs an earlier run finished."""
         todo, changed = [], 0
         for tile in self.todo:
             target = self._targets[tile.path]
-            before = read_record(target) if resume else None
-            if before is not None and before[0] == self._fingerprint(tile):
-                self.kept.append(self.steps[0].summary_type(**before[1]))
+            record = read_record(target) if resume else None
+            if record is not None and record[0] == self._fingerprint(tile):
+                self.kept.append(self.steps[0].summary_type(**record[1]))
                 continue
-            changed += before is not None
+            changed += record is not None
             remove_record(target)
             todo.append(tile)
         self.todo = todo
@@ -188,8 +190,8 @@ class Plan:
     def jobs(
         self, workers: Workers, outputs: Path, unpacking: Unpacking | None
     ) -> tuple[list[BlockJob], list[TileJob]]:
-        """Start the workers, which all see the folder `outputs`, and return the jobs of the blocks,
-        and those that write the files.
+        """Start the workers, which all see the folder `outputs`; return the jobs on blocks, and the
+        jobs that write files.
         """
         missing = self._missing()
         least = [
@@ -201,13 +203,10 @@ class Plan:
         for number, (grid, survey) in enumerate(zip(self.grids, self.surveys)):
             of_step = {block.place: block for block in missing.values() if block.step == number}
 
-            def before(group: Sequence[BlockIndex], of_step: Any = of_step) -> Any:
-                return self._files_of(set().union(*(of_step[place].needs for place in group)))
-
             blocks += block_jobs(
                 PointJob, grid, survey, {place: block.file for place, block in of_step.items()},
                 {place: block.sources for place, block in of_step.items()},
-                before, workers, unpacking,
+                partial(self._files_before, of_step), workers, unpacking,
             )  # fmt: skip
         tiles = [
             TileJob(
@@ -218,8 +217,14 @@ class Plan:
         ]  # fmt: skip
         return blocks, tiles
 
+    def _files_before(
+        self, blocks: Mapping[BlockIndex, _PlannedBlock], group: Iterable[BlockIndex]
+    ) -> tuple[BlockFiles, ...]:
+        """Return the results of earlier steps that a group of blocks needs."""
+        return self._files_of(set().union(*(blocks[place].needs for place in group)))
+
     def _missing(self) -> dict[tuple[int, BlockIndex], _PlannedBlock]:
-        """Return the blocks whose results are needed and not there, sorted by their keys."""
+        """Return the blocks whose results are needed but do not exist, sorted by their keys."""
         todo = {block for tile in self.todo for block in self._wanted(tile)}
         missing = {}
         while todo:
@@ -237,7 +242,7 @@ class Plan:
         return tuple(BlockFiles(self.grids[number], files[number]) for number in files)
 
     def _with_classes(self, tile: LasFile) -> list[_PlannedBlock]:
-        """Return the blocks of a file whose results further steps and rasters need."""
+        """Return the blocks of a file whose results later steps and rasters need."""
         return [block for block in self._wanted(tile) if self.gives_classes(block.step)]
 
     def files_kept(self) -> list[Path]:
@@ -251,7 +256,7 @@ class Plan:
         for output in outputs.tiles:
             tile = inputs[output.path.name]
             blocks = self._with_classes(tile)
-            # Of a file that an earlier run finished there is only the output.
+            # Of a file that an earlier run finished, only the output exists.
             if all(block.file.exists() for block in blocks):
                 read_from[output.path] = tile
                 needed.update(blocks)
@@ -268,8 +273,8 @@ def block_jobs(
     workers: Workers,
     unpacking: Unpacking | None,
 ) -> list[_Job]:
-    """Return jobs on groups of blocks, given the file for the result of each and the files with its
-    points, and what other steps found before round a group.
+    """Return jobs on groups of blocks, given for each block the file for its result and the files
+    with its points; `before` returns the results of earlier steps that a group needs.
     """
     return [
         kind(
@@ -284,17 +289,17 @@ def block_jobs(
 
 
 class Results:
-    """Where to read the points of a survey with what was found for them: from its files, or from
-    `inputs` that can be read in place of these.
+    """Where to read the points of a survey with the results of earlier steps: from its files, or
+    from `inputs`, which some of the files were made from, and the results.
     """
 
     def __init__(
         self,
         survey: Survey,
         inputs: Mapping[Path, LasFile] = MappingProxyType({}),
-        found: tuple[BlockFiles, ...] = (),
+        earlier: tuple[BlockFiles, ...] = (),
     ) -> None:
-        self._survey, self._inputs, self.found = survey, inputs, found
+        self._survey, self._inputs, self.earlier = survey, inputs, earlier
         self.read_from = {tile.path: inputs.get(tile.path, tile).path for tile in survey.tiles}
         self.finished = frozenset(self.read_from) - inputs.keys()
 
@@ -306,7 +311,7 @@ class Results:
         for tile, part in zip(tiles, progress.shares(*[1.0] * len(tiles))):
             las, values = self._inputs.get(tile.path, tile), []
             if tile.path in self._inputs:
-                values = [BlockValues(found, las, are_all=False) for found in self.found]
+                values = [BlockValues(files, las, are_all=False) for files in self.earlier]
             if unpacking is not None:
                 las = unpacking.of(las, part.quiet())
             parts = numbered(read_parts(las, part.quiet()))

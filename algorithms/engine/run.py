@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Run:
-    """Steps, each of which sees the points with what those before it have found."""
+    """Steps, each of which sees the points with the results of the steps before it."""
 
     steps: tuple[Step, ...]
     output: TileOutput = field(default_factory=TileOutput)  # of many files
@@ -40,8 +40,8 @@ class Run:
         """Let the steps work, and write the points into a file, those of a survey into a folder;
         return the summary.
         """
-        # `target`, and the virtual point cloud of a survey, are None if no step finds a value for
-        # each point. The workers are by default threads of this process. All but the files of a
+        # `target`, and the virtual point cloud of a survey, are None if no step computes a value
+        # for each point. The workers are by default threads of this process. All but the files of a
         # survey get their names when `outputs` ends, or else at the end of the run.
         kind: type[Execution] = OneFile
         if inputs.is_survey:
@@ -57,6 +57,8 @@ class Run:
             except NoPoints as empty:
                 if target is None:
                     raise
-                return execution.without_points(empty.layouts)
+                return execution.copy_empty(empty.layouts, target)
             execution.work()
-            return execution.finish()
+            if target is None:
+                return execution.step_summaries[-1]
+            return execution.write(target)

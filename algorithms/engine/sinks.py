@@ -1,4 +1,4 @@
-"""Runs a sink on a survey: its results wait in files of blocks until outputs are made of them."""
+"""Runs a sink on a survey: results of blocks are kept in files until outputs are made of them."""
 
 from __future__ import annotations
 
@@ -36,11 +36,11 @@ def run_sink(
     unpacking: Unpacking | None = None,
     outputs: Outputs | None = None,
 ) -> Any:
-    """Run a sink on a survey, or on `results` for its points, and return what it tells; an error
-    says if a block fails, and the workers are stopped.
+    """Run a sink on a survey, or on `results` for its points, and return its summary; raise an
+    error if a block fails. The workers are stopped at the end.
     """
-    # The results of blocks go to an existing folder that all workers see. Those that a run left
-    # there when it was cancelled or killed are not made again if nothing has changed.
+    # The results of blocks are written into `folder`, which exists and which all workers see.
+    # Results that a cancelled or killed run left there are used if nothing has changed.
     results = results or Results(survey)
     frame = survey_frame(survey.crs, step.origin)
     reading, progress = progress.part(0.0, 0.05), progress.part(0.05, 1.0)
@@ -49,7 +49,7 @@ def run_sink(
     places = sorted({place for tile in survey.tiles for place in places_of(grid, tile)})
     sources = {place: sources_of(grid, survey, place) for place in step.wanted(places, grid)}
     stamps = {path: stamp_of(source) for path, source in results.read_from.items()}
-    grids = [*(found.grid for found in results.found), grid]
+    grids = [*(earlier.grid for earlier in results.earlier), grid]
     files = {
         place: block_file(grids, folder, place, [stamps[path] for path in paths])
         for place, paths in sources.items()
@@ -61,7 +61,7 @@ def run_sink(
         workers.start(folder, least, len(missing), 0)
 
         def before(group: Sequence[BlockIndex]) -> tuple[BlockFiles, ...]:
-            return tuple(found.within(grid.window(group)) for found in results.found)
+            return tuple(earlier.within(grid.window(group)) for earlier in results.earlier)
 
         read = {place: [results.read_from[path] for path in sources[place]] for place in missing}
         jobs = [
@@ -69,16 +69,16 @@ def run_sink(
             for job in block_jobs(SinkJob, grid, survey, missing, read, before, workers, unpacking)
         ]
         jobs = _reading_once(jobs)
-        # What was found stays as long as a cancelled run may go on.
+        # The results of earlier steps stay as long as a cancelled run may be continued.
         kept = {file for job in jobs for file in job.needs}
         queue = JobQueue(jobs, [], workers, progress.part(0.0, 0.8), kept)
         queue.work()
         if queue.lost:
             raise BareEarthError(f"The {step.title} cannot be made. {queue.lost[0]}")
-        found = [result for file in files.values() for result in step.load(file)]
-        with contextlib.ExitStack() as own:
-            outputs = outputs or own.enter_context(Outputs())
-            return step.finish(found, frame, outputs, progress.part(0.8, 1.0), survey.tiles)
+        of_blocks = [result for file in files.values() for result in step.load(file)]
+        with contextlib.ExitStack() as opened:
+            outputs = outputs or opened.enter_context(Outputs())
+            return step.finish(of_blocks, frame, outputs, progress.part(0.8, 1.0), survey.tiles)
     except Cancelled:
         is_cancelled = True
         raise
@@ -89,7 +89,7 @@ def run_sink(
 
 
 def _reading_once(jobs: list[SinkJob]) -> list[SinkJob]:
-    """Return jobs that do not unpack files which only one of them reads."""
+    """Return the jobs, changed so that files that only one job reads are not unpacked."""
     uses = Counter(path for job in jobs for path in job.sources)
     once = frozenset(path for path, count in uses.items() if count == 1)
     return [

@@ -1,9 +1,9 @@
 """Steps: what a run can compute from the points of a survey.
 
-A step chooses the points that it needs (`marks`) and the blocks in which it works (`blocks`), and
-computes its result in each of them (`in_block`). It knows neither files nor threads. So it
-runs on one file or many, in memory, from disk, and in the jobs of a survey. What it finds is a
-value for each point (`PointStep`), or stays by block until outputs are made of it (`Sink`).
+A step selects the points that it needs (`marks`) and the blocks in which it works (`blocks`), and
+computes a result for each block (`in_block`). It does not deal with files or threads, so it runs on
+one file or many, in memory, from disk, and in the jobs of a survey. The result is a value for each
+point (`PointStep`), or results of blocks from which outputs are made at the end (`Sink`).
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ import hashlib
 from collections import Counter
 from functools import cached_property
 from pathlib import Path
-from typing import Any, BinaryIO, Callable, Iterable, Sequence
+from typing import Any, BinaryIO, Callable, ClassVar, Iterable, Sequence, TypeVar
 
 import numpy as np
 
@@ -27,37 +27,40 @@ from ..las.edits import Edits
 from ..las.lasfile import LasFile
 from ..survey.shapes import Geometry, Place
 from .block_grid import BlockGrid, BlockIndex
-from .blocks import Block, Blocks
+from .blocks import Block, Blocks, Visit
 from .store import Marks, Store
-from .visits import Visit
+from .summary import TileSummary
+
+_Step = TypeVar("_Step", bound="Step")
 
 # Returns an array of one value for each point of a file, given the type of the values.
 Allocate = Callable[[type], np.ndarray]
-# Reads all points part by part, with what earlier steps found for them.
+# Reads all points part by part, with the results of earlier steps.
 Look = Callable[[], Iterable[PointCloud]]
 
 
+@dataclasses.dataclass(frozen=True, eq=False)
 class Step:
     """Base of the steps, which are frozen dataclasses of parameters."""
 
-    kind: type = np.uint8  # of the value that a store holds for each point
-    counts: type  # of the counters that `marks` adds to
-    imports: tuple[str, ...] = ()  # modules that it needs, which take time to load
+    kind: ClassVar[type] = np.uint8  # of the value that a store holds for each point
+    counts: ClassVar[type]  # of the counters that `marks` adds to
+    imports: ClassVar[tuple[str, ...]] = ()  # modules that the step needs and that load slowly
     weight_of_outputs = 0.0  # in the progress, as a share of `weight`
 
     @property
     def weight(self) -> float:
-        """Its share of the progress."""
+        """The share of the step in the progress."""
         return 3.0
 
     @property
     def gives_classes(self) -> bool:
-        """Whether it changes classes, so that later steps must see its result."""
+        """Whether the step changes classes, so that later steps must see its result."""
         return False
 
     @property
     def writes_all(self) -> bool:
-        """Whether it leaves no point out of the output."""
+        """Whether the output has all points."""
         return True
 
     @property
@@ -67,7 +70,7 @@ class Step:
 
     @property
     def outputs(self) -> list[tuple[str, Path]]:
-        """The kinds and paths of the files that it writes beside points."""
+        """The kinds and paths of the files that the step writes, apart from points."""
         return []
 
     @property
@@ -80,36 +83,36 @@ class Step:
         """The blocks in which the step works."""
         raise NotImplementedError
 
-    def placed(self, place: Place, progress: Progress = SILENT) -> Any:
+    def placed(self: _Step, place: Place, progress: Progress = SILENT) -> _Step:
         """Return the step for points at a place."""
         return self
 
     def check_survey(self, box: Box, steps: Sequence[Step]) -> None:
-        """Refuse, before any work, a survey of many files with an unsuitable extent, in units of
-        the CRS, or what such a run of these steps cannot make.
+        """Refuse, before any work, a survey of many files whose extent (in units of the CRS) is
+        unsuitable, or an output that these steps cannot make of many files.
         """
 
-    def seeing(self, look: Look, frame: Frame, progress: Progress = SILENT) -> Any:
-        """Return the step after a look at all points, with what was found for them."""
+    def seeing(self: _Step, look: Look, frame: Frame, progress: Progress = SILENT) -> _Step:
+        """Return the step with parameters that depend on all points, which `look` reads."""
         return self
 
     def marks(self, part: PointCloud, counts: Any) -> Marks:
-        """Return the flags of points of a part of a file and count them, or refuse the file."""
+        """Return the flags of the points of a part and count them; refuse an unsuitable file."""
         raise NotImplementedError
 
     def tell(self, counts: Any, path: Path, progress: Progress) -> None:
-        """Report what was counted in a file, or refuse it if the step has nothing to do."""
+        """Report the counts of a file, or refuse a file without points for the step."""
 
-    def in_block(self, visit: Visit, progress: Progress) -> Any:
-        """Return what the step finds in a block."""
+    def in_block(self, visit: Visit, progress: Progress) -> object:
+        """Compute the result of a block."""
         raise NotImplementedError
 
-    def keep(self, store: Store, result: Any) -> Any:
-        """Store the result of a block; return what stays in memory until all blocks are done."""
+    def keep(self, store: Store, result: Any) -> object:
+        """Put the large part of the result of a block into the store, and return the rest."""
         return result
 
     def end(self, store: Store, results: Sequence[tuple[Block, Any]], progress: Progress) -> Any:
-        """Return the result, given what stayed of each block."""
+        """Return the result of all blocks, given what `keep` returned for each."""
         return results
 
     def finish(
@@ -120,72 +123,72 @@ class Step:
         progress: Progress,
         tiles: Sequence[LasFile] | None = None,
     ) -> Any:
-        """Write what `outputs` named, given the result of `end` and the files of a survey; return
-        what to tell of it.
+        """Write the files of the property `outputs`, given the result of `end`, and the files of a
+        survey; return a summary.
         """
 
     @cached_property
-    def settings(self) -> dict[str, Any]:
-        """Return everything that the result depends on, as plain values."""
-        return {"step": type(self).__name__, **_plain(self)}
+    def settings(self) -> dict[str, object]:
+        """Everything that the result depends on, as plain values."""
+        return {"step": type(self).__name__, **_plain_fields(self)}
 
 
-def placed(steps: Sequence[Any], place: Place, progress: Progress = SILENT) -> list[Any]:
+def placed(steps: Sequence[_Step], place: Place, progress: Progress = SILENT) -> list[_Step]:
     """Return steps for points at a place, with all lines and polygons in its CRS, each transformed
     once; errors are those of `Geometry.located` and of the steps.
     """
-    known: dict[int, Geometry] = {}
-    found = []
+    transformed: dict[int, Geometry] = {}
+    placed_steps = []
     for step in steps:
-        changed = {}
+        changed: dict[str, Any] = {}
         for name in (field.name for field in dataclasses.fields(step)):
             value = getattr(step, name)
             if isinstance(value, Geometry):
-                if id(value) not in known:
-                    known[id(value)] = value.located(place, progress)
-                changed[name] = known[id(value)]
+                if id(value) not in transformed:
+                    transformed[id(value)] = value.located(place, progress)
+                changed[name] = transformed[id(value)]
         step = dataclasses.replace(step, **changed) if changed else step
-        found.append(step.placed(place, progress))
-    return found
+        placed_steps.append(step.placed(place, progress))
+    return placed_steps
 
 
 class PointStep(Step):
-    """Base of the steps that find a value for each point, and write it into the file."""
+    """Base of the steps that compute a value for each point, which is written into the file."""
 
     summary_type: type  # a frozen dataclass with `name`, `point_count` and `text`
 
     @property
     def gives_classes(self) -> bool:
-        """Whether it changes classes."""
+        """Whether the step changes classes."""
         return True
 
     @property
     def only_classes(self) -> bool:
-        """Whether it changes nothing but classes."""
+        """Whether the step changes only classes."""
         return self.gives_classes
 
-    def keep(self, store: Store, result: Sequence[Any]) -> Any:
-        """Store the values of a block, of which there are positions and values, and maybe more."""
+    def keep(self, store: Store, result: Sequence[Any]) -> object:
+        """Store positions and values, the first two parts of the result of a block."""
         positions, values, *more = result
         store.put(positions, values)
         return more
 
     def applied(self, part: PointCloud, values: np.ndarray) -> PointCloud:
-        """Return points with their values, as further steps and the output have them."""
+        """Return points with their values, as later steps see them and as they are written."""
         return part
 
     def check_tile(self, tile: LasFile) -> None:
         """Refuse, before any work, a file that cannot hold the result."""
 
     def skips(self, tile: LasFile) -> bool:
-        """Return whether no point of a file is to be written, according to its header."""
+        """Return whether the header of a file shows that none of its points is to be written."""
         return False
 
     def tell_of_survey(self, done: Sequence[Any], progress: Progress) -> None:
         """Report on all files together, given their summaries."""
 
     def numbers(self, part: PointCloud, after: PointCloud, values: np.ndarray) -> dict[str, int]:
-        """Return numbers of points of a part, before and after, that the summary has."""
+        """Count points of a part, before and after, for fields of the summary."""
         return {}
 
     def result(self, path: Path, allocate: Allocate) -> PointResult:
@@ -194,13 +197,13 @@ class PointStep(Step):
 
 
 class Sink(Step):
-    """Base of the steps whose result is of blocks, and goes into files of its own."""
+    """Base of the steps whose results of blocks go into files of their own, such as rasters."""
 
-    title = "outputs"  # what it makes, for messages
+    title = "outputs"  # what the step makes, for messages
     weight_of_outputs = 0.25
 
     def wanted(self, places: Sequence[BlockIndex], grid: BlockGrid) -> Sequence[BlockIndex]:
-        """Return those of the blocks with points that matter, at least one."""
+        """Return the blocks that the outputs need, at least one."""
         return places
 
     def save(self, results: Sequence[Any], stream: BinaryIO) -> None:
@@ -213,8 +216,8 @@ class Sink(Step):
 
 
 class PointResult:
-    """What a step found for the points of a file: here the `numbers` of its summary, as of a step
-    that changes only classes.
+    """What a step found for the points of a file; this class has the `numbers` of the summary,
+    which are all that a step needs that changes only classes.
     """
 
     kept: np.ndarray | None = None  # bool, (n,): which points are written; None for all
@@ -229,42 +232,47 @@ class PointResult:
         return False
 
     def applied(self, part: PointCloud, values: np.ndarray) -> PointCloud:
-        """Return the next points with their values, as the step does."""
+        """Return the next points with their values, as `PointStep.applied` does."""
         after: PointCloud = self._step.applied(part, values)
         return after
 
     def add(self, where: slice, before: PointCloud, after: PointCloud, values: np.ndarray) -> None:
-        """Add the values, shape (k,), of the points at `where` in the file, given without them and
-        as `applied` has just returned them.
+        """Add the values, shape (k,), of the points at `where` in the file, given as they were
+        before, and after `applied`.
         """
         self._numbers.update(point_count=before.count, **self._step.numbers(before, after, values))
 
     def check(self, progress: Progress, why: str = "") -> None:
-        """Refuse one of many files, whose own points no step has told of, without a result; `why`
-        is the reason, if it is known.
+        """Report on one of many files, or refuse it if it has no result; `why` is the reason, if
+        it is known.
         """
 
     def tell(self, progress: Progress) -> None:
         """Report what was found in a file."""
 
     def edits(self, cloud: PointCloud, progress: Progress = SILENT) -> Edits:
-        """Return the changes of the file beside the classes, or refuse a file that cannot hold
-        them; `cloud` holds any of its points.
+        """Return the changes of the file other than classes, or refuse a file that cannot hold
+        them; `cloud` has some of its points.
         """
         return Edits()
 
-    def summary(self, name: str, class_counts: dict[int, int]) -> Any:
-        """Return the summary of an output with points of each class, as `summary_type`."""
+    def summary(self, name: str, class_counts: dict[int, int]) -> TileSummary:
+        """Return the summary of an output, given its name and its number of points by class."""
         return self._step.summary_type(name, **self._numbers, class_counts=class_counts)
 
 
-def _plain(value: Any) -> Any:
+def _plain_fields(value: Any) -> dict[str, object]:
+    """Return the fields of a dataclass as plain values."""
+    names = (field.name for field in dataclasses.fields(value))
+    return {name: _plain(getattr(value, name)) for name in names}
+
+
+def _plain(value: object) -> object:
     """Return a value as it would be read back from JSON."""
     if dataclasses.is_dataclass(value):
-        names = [field.name for field in dataclasses.fields(value)]
-        plain = {name: _plain(getattr(value, name)) for name in names}
         is_set = isinstance(value, ParameterSet)
-        return {"set": type(value).__name__, **plain} if is_set else plain
+        name = {"set": type(value).__name__} if is_set else {}
+        return {**name, **_plain_fields(value)}
     if isinstance(value, (tuple, list)):
         return [_plain(element) for element in value]
     if isinstance(value, np.ndarray):
@@ -273,7 +281,9 @@ def _plain(value: Any) -> Any:
 
 
 def with_classes(part: PointCloud, classes: np.ndarray, begins: bool = False) -> PointCloud:
-    """Return points with other classes, remembered if the file remembers classes or `begins` to."""
+    """Return points with other classes; these are remembered in the file if it has remembered
+    classes already, or if `begins`.
+    """
     remembered = None
     if begins or part.remembered is not None:
         remembered = to_remember(part, classes)

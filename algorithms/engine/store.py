@@ -1,9 +1,9 @@
-"""Stores: what holds points until their block is computed, and then their values."""
+"""Stores, which hold points until their block is computed, and then their values."""
 
 from __future__ import annotations
 
 from types import MappingProxyType
-from typing import Any, Callable, Mapping, NamedTuple, Sequence, TypeVar
+from typing import Callable, Mapping, NamedTuple, Protocol, Sequence, TypeVar
 
 import numpy as np
 
@@ -14,14 +14,30 @@ from ..las.cloud import PointCloud
 
 _Result = TypeVar("_Result")
 
-# Which points to read: those that are no known ground.
+# Asks for the points that are not known ground.
 OTHERS = "others"
 # x and y in metres.
 Corner = tuple[float, float]
 
 
+class Flag(Protocol):
+    """A flag of points, of which some are selected by their indices, such as an array."""
+
+    def __getitem__(self, index: np.ndarray, /) -> np.ndarray:
+        """Return the flag of some points; bool, the shape of the index."""
+
+
+class Rows(Protocol):
+    """An array of rows and columns, of which slices are read, such as an array."""
+
+    shape: tuple[int, ...]
+
+    def __getitem__(self, where: tuple[slice, ...], /) -> np.ndarray:
+        """Return what lies in slices of rows and columns."""
+
+
 class Leaves(NamedTuple):
-    """Squares that hold the points of a store; smaller than blocks or equal to them."""
+    """Squares that hold the points of a store; a block has one or several leaves."""
 
     x: np.ndarray  # float64, (n,): lower left corners in metres
     y: np.ndarray  # as x
@@ -36,7 +52,7 @@ class Leaves(NamedTuple):
         return np.flatnonzero(touch & (self.y <= north) & (self.y + self.side >= south))
 
     def are_inside(self, leaves: np.ndarray, box: Box) -> bool:
-        """Return whether some leaves lie in a box and touch none of its sides."""
+        """Return whether all of some leaves lie in a box without touching its sides."""
         west, south, east, north = box
         x, y = self.x[leaves], self.y[leaves]
         inside = (x > west) & (x + self.side < east) & (y > south) & (y + self.side < north)
@@ -46,27 +62,27 @@ class Leaves(NamedTuple):
 class Marks(NamedTuple):
     """Flags of points for a step, boolean arrays of shape (n,)."""
 
-    selected: np.ndarray  # which take part
-    known: np.ndarray | None = None  # which of them are known ground; None for none
-    # which of them get a value, the others are context; None for all
+    selected: np.ndarray  # points that take part
+    known: np.ndarray | None = None  # selected points that are known ground; None for none
+    # Selected points that get a value, while the others are context; None for all.
     wanted: np.ndarray | None = None
-    # what else the step asks of points, by names: arrays, or what an index makes such an array of
-    flags: Mapping[str, Any] = MappingProxyType({})
+    # Further flags of the step, by name: arrays, or objects that return such an array for an index.
+    flags: Mapping[str, Flag] = MappingProxyType({})
 
 
 class BlockPoints(NamedTuple):
     """Points of a store with flags, boolean arrays of shape (n,)."""
 
     points: Points
-    known: np.ndarray  # which are known ground
-    wanted: np.ndarray  # which are to be labelled; the others are context
+    known: np.ndarray  # points that are known ground
+    wanted: np.ndarray  # points that get a value; the others are context
     positions: np.ndarray  # int, (n,): indices in the store
-    flags: Mapping[str, np.ndarray] = MappingProxyType({})  # those of `Marks`
+    flags: Mapping[str, np.ndarray] = MappingProxyType({})  # as in `Marks`
 
     @classmethod
     def empty(cls, count: int, kind: type, names: Sequence[str]) -> BlockPoints:
-        """Return uninitialised arrays for `count` points; `kind` is the type of the positions, and
-        `names` are those of flags.
+        """Return arrays for `count` points that are still to be put; `kind` is the type of the
+        positions, and `names` are the names of flags.
         """
         known, wanted, *flags = (np.zeros(count, dtype=bool) for _ in range(2 + len(names)))
         positions: np.ndarray = np.empty(count, dtype=kind)
@@ -76,8 +92,8 @@ class BlockPoints(NamedTuple):
     def put(self, start: int, added: BlockPoints) -> None:
         """Overwrite points from index `start` on with other points."""
         where = slice(start, start + added.points.count)
-        for mine, theirs in zip(self._arrays, added._arrays):
-            mine[where] = theirs
+        for old, new in zip(self._arrays, added._arrays):
+            old[where] = new
 
     def take(self, selected: np.ndarray | slice) -> BlockPoints:
         """Return the points that a mask or a slice selects."""
@@ -93,8 +109,8 @@ class BlockPoints(NamedTuple):
 
 
 class Store:
-    """Points, added part by part from any number of files and after `finish` read by the squares in
-    which they lie, and a value for each.
+    """Points with a value each; points are added part by part from any number of files, and after
+    `finish` they are read by the squares in which they lie.
     """
 
     leaves: Leaves  # after `finish`
@@ -121,8 +137,8 @@ class Store:
     def pieces(
         self, leaves: np.ndarray, corner: Corner, only: str | None = None
     ) -> tuple[Sequence[int], Callable[[int], BlockPoints]]:
-        """Return the numbers of points of pieces of some leaves, small enough for the processor's
-        cache, and what reads a piece by its number; see `read`.
+        """Divide leaves into pieces that are small enough for the processor's cache; return the
+        numbers of points of the pieces, and a function to read a piece by its number; see `read`.
         """
         raise NotImplementedError
 
@@ -134,11 +150,11 @@ class Store:
         progress: Progress = SILENT,
         only: str | None = None,
     ) -> BlockPoints:
-        """Return the points of some leaves, in a box if there is one, relative to a corner as the
-        box; with `only`, a flag, those that have it or are known ground, with `OTHERS` those that
-        are no known ground.
+        """Return the points of some leaves, and in a box if one is given, relative to a corner; if
+        `only` is a flag, points with this flag and known ground; if it is `OTHERS`, all but known
+        ground.
         """
-        # Several threads may call this.
+        # Several threads may call this at the same time.
         counts, piece = self.pieces(leaves, corner, only)
         starts = np.concatenate(([0], np.cumsum(counts, dtype=np.int64))).tolist()
         whole = BlockPoints.empty(starts[-1], smallest_integers(self.count), self.flags)
@@ -165,8 +181,8 @@ class Store:
         progress: Progress = SILENT,
         only: str | None = None,
     ) -> list[_Result]:
-        """Return results of a function of the points of some leaves, relative to a corner, piece by
-        piece, so that not all need be in memory together; for `only`, see `read`.
+        """Call a function for the points of some leaves piece by piece, so that not all points are
+        in memory together, and return its results; for `corner` and `only`, see `read`.
         """
         counts, piece = self.pieces(leaves, corner, only)
         return in_threads(lambda number: work(piece(number)), range(len(counts)), progress)
@@ -175,48 +191,52 @@ class Store:
         """Store the values of points, whose positions ascend; only one thread may call this."""
         raise NotImplementedError
 
-    def keep(self, cells: np.ndarray) -> Any:
-        """Return cells, shape (rows, columns), or where they wait to be sliced if points do."""
+    def keep(self, cells: np.ndarray) -> Rows:
+        """Return cells, shape (rows, columns), or if the points are on disk an object that reads
+        slices of them from there.
+        """
         return cells
 
     def values(self, number: int) -> np.ndarray:
-        """Return the values of all points of the part that was added after `number` others, in its
-        order; 0 where none was stored.
+        """Return the values of all points of a part, in the order of the part; 0 where no value was
+        stored. Parts are numbered from 0, in the order in which they were added.
         """
         raise NotImplementedError
 
 
-# Row and column of a square are packed into one number of 64 bits: the row lies this many bits
-# higher, and each has an offset, since it can be negative.
+# Row and column of a square are packed into one number of 64 bits: the row is shifted by this many
+# bits.
 _SHIFT = 32
+# Added to row and column, which can be negative.
 _HALF = 1 << 30
 
 
 def code_of(row: np.ndarray, column: np.ndarray) -> np.ndarray:
-    """Return one number for row and column of each square."""
+    """Return one number for the row and the column of each square."""
     return (row.astype(np.int64) + _HALF << _SHIFT) + column.astype(np.int64) + _HALF
 
 
 def row_and_column(codes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return the row and column for numbers of `code_of`."""
+    """Return the rows and columns for numbers of `code_of`."""
     return (codes >> _SHIFT) - _HALF, (codes & ((1 << _SHIFT) - 1)) - _HALF
 
 
 class LeafIndex:
-    """Where the points of each leaf of a store are: runs of points that follow each other."""
+    """Where the points of each leaf of a store are: runs of consecutive points."""
 
     def __init__(self, side: float, start: float) -> None:
-        # Metres: side of a leaf, and where leaves begin beside the multiples of it.
+        # Metres: the side of a leaf, and from its multiples to the borders of leaves.
         self._side, self._start = side, start
         self._added: list[np.ndarray] = []
 
     def add(self, *runs: np.ndarray | int) -> None:
         """Add runs: the codes of their leaves, the indices of their first points, their lengths."""
-        self._added.append(np.column_stack(runs))  # in any order, by any thread
+        # Threads may add runs in any order.
+        self._added.append(np.column_stack(runs))
 
     def sort(self, places: Sequence[np.ndarray], first: int) -> np.ndarray:
-        """Add some points, given x and y, of which the first has index `first` in the store, and
-        return the order in which they are there: by leaves.
+        """Add points, given x and y, which the store holds sorted by leaves from index `first` on,
+        and return the order that sorts them.
         """
         column, row = (np.floor((axis - self._start) / self._side) for axis in places)
         codes = code_of(row, column)
@@ -243,7 +263,7 @@ class LeafIndex:
         return Leaves(x, y, self._side, totals)
 
     def of(self, leaves: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return the starts of the runs of some leaves, ascending, and the lengths of the runs."""
+        """Return the starts, ascending, and the lengths of the runs of some leaves."""
         of_each = [np.arange(*self._bounds[leaf : leaf + 2]) for leaf in leaves]
         runs = np.concatenate([np.zeros(0, np.intp), *of_each])
         runs = runs[np.argsort(self._starts[runs], kind="stable")]

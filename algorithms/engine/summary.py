@@ -22,7 +22,7 @@ class JobCost:
 class RunSummary:
     """Base of what runs return, frozen dataclasses."""
 
-    # What tools told that drew outputs of those of the run, by the names of what they drew.
+    # The results of tools that drew further outputs, such as contour lines, by output.
     drawn: Mapping[str, Any] = MappingProxyType({})
     vpc: str | None = None  # the virtual point cloud of many files
     failures: Mapping[str, str] = MappingProxyType({})  # why files could not be done
@@ -34,7 +34,7 @@ class RunSummary:
 
     @property
     def text(self) -> str:
-        """What was done, as a sentence."""
+        """What the run did, as a sentence."""
         raise NotImplementedError
 
     def told(self, output: Path) -> str:
@@ -43,8 +43,9 @@ class RunSummary:
 
 
 class TileSummary(RunSummary):
-    """Base of the summaries of written files, which have a `name`."""
+    """Base of the summaries of written files."""
 
+    name: str  # of the file
     class_counts: dict[int, int]  # points of each class in the output
 
     def __post_init__(self) -> None:
@@ -63,12 +64,11 @@ class SurveySummary(RunSummary):
 
     tile_count: int  # files in the survey
     done_count: int  # finished files, of this run and of earlier ones
-    kept_count: int  # those that an earlier run finished
+    kept_count: int  # files that an earlier run finished
     point_count: int  # in the finished files
-    ground_count: int  # as point_count
-    failures: Mapping[str, str] = field(
-        default_factory=dict
-    )  # why other files could not be done, by their paths
+    ground_count: int  # in the finished files
+    # Why the other files could not be processed, by path.
+    failures: Mapping[str, str] = field(default_factory=dict)
     vpc: str = ""  # the virtual point cloud of the finished files
     tiles: tuple[Any, ...] = field(default=(), repr=False)  # their summaries
     jobs: tuple[JobCost, ...] = field(default=(), repr=False)

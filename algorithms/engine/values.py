@@ -1,6 +1,6 @@
-"""The values that steps have found for the points of a file: in a store, or in files of blocks.
+"""The values of steps for the points of a file, in a store or in files of blocks.
 
-Each step of a run sees the points with what the steps before it have found.
+Each step of a run sees the points with the values of the steps before it.
 """
 
 from __future__ import annotations
@@ -26,17 +26,17 @@ _FAILURE = "no ground"
 
 
 class PointValues:
-    """The value that a step found for each point of a file, in a store of all of its parts."""
+    """The values of a step for the points of a file, in a store with all parts of the file."""
 
-    failure = ""  # why some points have none; empty if all have
-    # bool, (k,): which points that `of` was last asked for lie in blocks that failed
+    failure = ""  # why some points have no value; empty if all have one
+    # bool, (k,): which points of the last call of `of` lie in blocks that failed; None for no point
     lost: np.ndarray | None = None
 
     def __init__(self, step: PointStep, store: Store) -> None:
         self.step, self._store = step, store
 
     def of(self, where: slice, part: PointCloud) -> np.ndarray:
-        """Return the values of the next points, given their indices in the file."""
+        """Return the values of the next part, given its indices in the file."""
         return self._store.values(self._store.starts.index(where.start))
 
     def check(self) -> None:
@@ -60,18 +60,18 @@ def with_values(
 
 
 def applied(values: Sequence[PointValues], where: slice, part: PointCloud) -> PointCloud:
-    """Return a part of a file as the next step sees it; it leaves out what could not be done."""
-    for found in values:
-        if found.step.gives_classes:
-            part = found.step.applied(part, found.of(where, part))
-            if found.lost is not None:
-                part = replace(part, withheld=part.withheld | found.lost)
+    """Return a part of a file as the next step sees it; points of failed blocks are withheld."""
+    for of_step in values:
+        if of_step.step.gives_classes:
+            part = of_step.step.applied(part, of_step.of(where, part))
+            if of_step.lost is not None:
+                part = replace(part, withheld=part.withheld | of_step.lost)
     return part
 
 
 @dataclass(frozen=True, eq=False)
 class BlockFiles:
-    """The files with the values that a step has found in some blocks."""
+    """The files with the values of a step in some blocks."""
 
     grid: BlockGrid  # of the step
     files: Mapping[BlockIndex, Path]
@@ -82,7 +82,7 @@ class BlockFiles:
         return replace(self, files={place: self.files[place] for place in places})
 
     def write(self, place: BlockIndex, of_files: Mapping[Path, np.ndarray], failure: str) -> None:
-        """Write the values of a block: for each input those of its points in it, in file order."""
+        """Write the values of a block: for each input, those of its points in file order."""
         content: dict[str, Any] = {_key(path): values for path, values in of_files.items()}
         if failure:
             content[_FAILURE] = np.array(failure)
@@ -91,37 +91,38 @@ class BlockFiles:
 
 
 class BlockValues(PointValues):
-    """The values of a file as the blocks stored them; points in blocks that are not there, unless
-    `are_all`, have the value 0.
+    """The values of a step for the points of a file, from files of blocks; if these need not be all
+    blocks (`are_all`), points in other blocks have the value 0.
     """
 
-    def __init__(self, found: BlockFiles, las: LasFile, are_all: bool = True) -> None:
-        self.step, self._grid, self._las, self._are_all = found.grid.step, found.grid, las, are_all
-        # The values that each block has, and how many of them were used.
+    def __init__(self, blocks: BlockFiles, las: LasFile, are_all: bool = True) -> None:
+        self.step, self._grid = blocks.grid.step, blocks.grid
+        self._las, self._are_all = las, are_all
+        # The values in each block, and how many of them were used.
         self._values: dict[int, RowsOnDisk] = {}
         self._used: dict[int, int] = {}
         self._not_done: list[int] = []
-        for place, file in found.files.items():
+        for place, file in blocks.files.items():
             if not are_all and not file.exists():
                 self._not_done.append(code(place))
                 continue
-            with np.load(file, allow_pickle=False) as kept:
-                if _key(las.path) in kept:
+            with np.load(file, allow_pickle=False) as content:
+                if _key(las.path) in content:
                     self._values[code(place)] = rows_in(file)[_key(las.path)]
-                    self.failure = self.failure or str(kept.get(_FAILURE, ""))
+                    self.failure = self.failure or str(content.get(_FAILURE, ""))
 
     def of(self, where: slice, part: PointCloud) -> np.ndarray:
-        """Return the values of the next points; refuse points outside the extent in the header."""
+        """Return the values of the next part; refuse points outside the extent in the header."""
         if where.stop > self._las.count:
             raise self._changed()
         codes = self._grid.codes(part)
         self.lost = np.isin(codes, self._not_done) if self._not_done else None
         values: np.ndarray = np.zeros(part.count, dtype=self.step.kind)
-        # Most parts lie in one block, which is seen faster than codes are sorted.
+        # Most parts lie in one block; to test this is faster than to sort the codes.
         is_one = bool(part.count) and codes.min() == codes.max()
         for number in (codes[:1] if is_one else np.unique(codes)).tolist():
-            here, left = np.flatnonzero(codes == number), self._values.get(number)
-            if left is None:
+            indices, of_block = np.flatnonzero(codes == number), self._values.get(number)
+            if of_block is None:
                 if self._are_all:
                     raise BareEarthError(
                         f"The header of {self._las.path} states a smaller extent than its points"
@@ -129,24 +130,23 @@ class BlockValues(PointValues):
                     )
                 continue
             start = self._used.get(number, 0)
-            self._used[number] = end = start + len(here)
-            if end > left.shape[0]:
+            self._used[number] = end = start + len(indices)
+            if end > of_block.shape[0]:
                 raise self._changed()
-            values[here] = left[start:end]
+            values[indices] = of_block[start:end]
         return values
 
     def check(self) -> None:
         """Refuse a file if some values were not used."""
-        if any(self._used.get(block, 0) < left.shape[0] for block, left in self._values.items()):
+        if any(self._used.get(block, 0) < rows.shape[0] for block, rows in self._values.items()):
             raise self._changed()
 
     def _changed(self) -> BareEarthError:
-        """Return the error for a file that has changed."""
         return BareEarthError(
             f"{self._las.path} changed while it was worked on. Classify it again."
         )
 
 
 def _key(path: Path) -> str:
-    """Return a name for the values of a file, whose own name may have unsuitable characters."""
+    """Return the name of an array for a file; the name of the file can have any characters."""
     return os.fsencode(path.name).hex()

@@ -1,7 +1,7 @@
-"""Visits of steps to blocks, as many at a time as threads and memory allow.
+"""Lets steps work in blocks, in as many at the same time as threads and memory allow.
 
-Steps with equal blocks work in one visit to each: what one of them finds out about the points of a
-block, those after it need not find again.
+Steps with equal blocks work on a block one after another, so that a step can use what an earlier
+one has found out about the points of the block.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ import itertools
 from collections import defaultdict
 from dataclasses import replace
 from functools import partial
-from typing import Any, Callable, NamedTuple, Sequence
+from typing import Any, Callable, Hashable, Sequence
 
 import numpy as np
 
@@ -18,62 +18,31 @@ from ..core.errors import BareEarthError
 from ..core.points import Frame
 from ..core.progress import SILENT, Progress
 from ..las.cloud import PointCloud
-from .blocks import Block, Blocks
+from .blocks import Block, Visit
 from .blockwise import run_jobs
 from .memory import GIGABYTE, Cost, GivingBack, Resources, give_back
 from .memory_store import MemoryStore
-from .store import BlockPoints, Corner, Marks, Store
+from .step import Step
+from .store import Marks, Store
 
 # Bytes: blocks that take more give their memory back to the system when they are done.
 _MUCH = 100_000_000
-# Bytes that stay in memory for each point that a step has seen, while others work on its block.
+# Bytes that stay in memory for each point of a block that a step has read, while later steps work
+# on the block.
 _BYTES_KEPT = 70
 
 
-class Visit(NamedTuple):
-    """A block while a step works on it."""
-
-    block: Block
-    blocks: Blocks
-    store: Store  # with the points that the step needs
-    is_only: bool  # the block has all of these points
-    found: dict[Any, Any]  # what a step has found out that those after it may use
-
-    @property
-    def corner(self) -> Corner:
-        """The place that is (0, 0) of `contents`, as of `Blocks.corner`."""
-        return self.blocks.corner(self.block)
-
-    def contents(self, progress: Progress = SILENT, only: str | None = None) -> BlockPoints:
-        """Return the points of the block and its buffer; for `only`, see `Store.read`."""
-        return self.blocks.contents(self.block, self.store, progress, only)
-
-    def core(self, contents: BlockPoints) -> np.ndarray:
-        """Return which points the step is to say something of, bool (n,)."""
-        if self.is_only:
-            return contents.wanted
-        return contents.wanted & self.block.holds(contents.points, self.corner)
-
-    @property
-    def size(self) -> tuple[int, int]:
-        """How many points the block has with its buffer, and how many bytes it takes."""
-        leaves = self.store.leaves
-        touched = leaves.within(self.blocks.window(self.block))
-        count = int(leaves.counts[touched].sum())
-        return count, self.blocks.memory(count, len(touched) * leaves.side**2)
-
-
 class Work:
-    """A step, and the points that it needs, in a store."""
+    """A step, and a store with the points that it needs."""
 
-    def __init__(self, step: Any, store: Store) -> None:
+    def __init__(self, step: Step, store: Store) -> None:
         self.step, self.store = step, store
-        self.counts = step.counts()  # by the step, among the points
+        self.counts = step.counts()  # what the step has counted among the points
         self.has_points = False  # whether any point that gets a value takes part
 
     @classmethod
-    def in_memory(cls, step: Any, frame: Frame) -> Work:
-        """Return a step, and an empty store in memory."""
+    def in_memory(cls, step: Step, frame: Frame) -> Work:
+        """Return a step with an empty store in memory."""
         return cls(step, MemoryStore(frame, step.blocks, step.kind))
 
     def add(
@@ -82,8 +51,8 @@ class Work:
         stored: PointCloud | None = None,
         wanted: np.ndarray | None = None,
     ) -> Marks:
-        """Store the next points that the step needs, and return their marks; `stored` are the same
-        points with less memory, and only those that are `wanted` get a value.
+        """Add the points of the next part that the step needs to the store, and return the marks of
+        the part; `stored` is the same part with less memory, and only `wanted` points get a value.
         """
         marks = self.step.marks(part, self.counts)
         if wanted is not None:
@@ -100,11 +69,11 @@ class Work:
         progress: Progress = SILENT,
         is_wanted: Callable[[Block], bool] | None = None,
     ) -> Any:
-        """Let the step work as `visited` does, when all points are there; return None if none of
-        them takes part.
+        """Let the step work as `visited` does, after all points were added; return its result, or
+        None if no point takes part.
         """
         self.store.finish(progress.part(0.0, 0.1))
-        return self._found(resources, progress.part(0.1, 1.0), is_wanted)
+        return self._result(resources, progress.part(0.1, 1.0), is_wanted)
 
     def failure(
         self,
@@ -112,18 +81,21 @@ class Work:
         progress: Progress = SILENT,
         is_wanted: Callable[[Block], bool] | None = None,
     ) -> str:
-        """Let a step work that finds a value for each point; return why it found none, or ""."""
+        """Let the step work as `done` does; return why it failed, or an empty text."""
         self.store.finish(progress.part(0.0, 0.1))
         try:
-            self._found(resources, progress.part(0.1, 1.0), is_wanted)
+            self._result(resources, progress.part(0.1, 1.0), is_wanted)
         except BareEarthError as error:
             return str(error)
         return ""
 
-    def _found(self, resources: Resources, progress: Progress, is_wanted: Any) -> Any:
-        if not self.has_points:
-            return None
-        return visited([self], resources, progress, is_wanted)[0]
+    def _result(
+        self,
+        resources: Resources,
+        progress: Progress,
+        is_wanted: Callable[[Block], bool] | None,
+    ) -> Any:
+        return visited([self], resources, progress, is_wanted)[0] if self.has_points else None
 
 
 def visited(
@@ -132,15 +104,15 @@ def visited(
     progress: Progress,
     is_wanted: Callable[[Block], bool] | None = None,
 ) -> list[Any]:
-    """Let steps work in their blocks, or in those that are wanted; return what `Step.end` returns
-    for each.
+    """Let steps work in their blocks, or only in the wanted ones; return what `Step.end` returns
+    for each step.
     """
     alike = itertools.groupby(
         works, lambda work: (replace(work.step.blocks, cost=Cost()), work.store.frame)
     )
     groups = [list(group) for _, group in alike]
     pairs = zip(groups, progress.shares(*map(_weight, groups)))
-    return [found for pair in pairs for found in _visited(*pair, resources, is_wanted)]
+    return [result for pair in pairs for result in _visited(*pair, resources, is_wanted)]
 
 
 def _weight(works: Sequence[Work]) -> float:
@@ -157,19 +129,19 @@ def _visited(
     todo: dict[Block, dict[int, Visit]] = defaultdict(dict)
     for number, work in enumerate(works):
         blocks, store = work.step.blocks, work.store
-        over = list(blocks.over(store))
-        for block in over if is_wanted is None else filter(is_wanted, over):
-            todo[block][number] = Visit(block, blocks, store, len(over) == 1, {})
+        with_points = list(blocks.over(store))
+        for block in filter(is_wanted, with_points) if is_wanted else with_points:
+            todo[block][number] = Visit(block, blocks, store, len(with_points) == 1, {})
     counts, memory = [], []
     for visits in todo.values():
-        of_steps, bytes_of_steps = zip(*(visit.size for visit in visits.values()))
-        counts.append(sum(of_steps))
-        memory.append(max(bytes_of_steps) + _BYTES_KEPT * sum(of_steps[:-1]))
+        points, sizes = zip(*(visit.size for visit in visits.values()))
+        counts.append(sum(points))
+        memory.append(max(sizes) + _BYTES_KEPT * sum(points[:-1]))
     largest = max(memory, default=0)
     if len(works) > 1 and largest > resources.bytes:
         alone = [[work] for work in works]
         pairs = zip(alone, progress.shares(*map(_weight, alone)))
-        return [found for pair in pairs for found in _visited(*pair, resources, is_wanted)]
+        return [result for pair in pairs for result in _visited(*pair, resources, is_wanted)]
     if largest > max(resources.bytes, _MUCH):
         progress.info(
             f"The largest block takes about {largest / GIGABYTE:.2f} GB of memory, more than"
@@ -179,29 +151,29 @@ def _visited(
     is_tight = sum(memory) > resources.bytes
     running = GivingBack(progress) if is_tight else progress
     jobs = [partial(_in_block, works, visits) for visits in todo.values()]
-    results: list[dict[Block, Any]] = [{} for _ in works]
+    results: list[dict[Block, object]] = [{} for _ in works]
     order = list(todo)
-    for place, found in run_jobs(jobs, counts, at_once, resources.thread_count, running):
-        for number, result in found.items():
+    for place, of_steps in run_jobs(jobs, counts, at_once, resources.thread_count, running):
+        for number, result in of_steps.items():
             work = works[number]
             results[number][order[place]] = work.step.keep(work.store, result)
         if is_tight and memory[place] > _MUCH:
             give_back()
-    # In the order of the blocks, whichever was done first.
+    # In the order of the blocks, not in the order in which they were done.
     return [
         work.step.end(
-            work.store, [(block, found[block]) for block in order if block in found], progress
+            work.store, [(block, kept[block]) for block in order if block in kept], progress
         )
-        for work, found in zip(works, results)
+        for work, kept in zip(works, results)
     ]
 
 
 def _in_block(
     works: Sequence[Work], visits: dict[int, Visit], progress: Progress
-) -> dict[int, Any]:
-    """Let steps work on a block, given the visit of each by its number; return their results."""
+) -> dict[int, object]:
+    """Let steps work on a block; visits and results are by the number of the step."""
     shares = progress.shares(*(works[number].step.weight for number in visits))
-    found: dict[Any, Any] = {}
+    found: dict[Hashable, Any] = {}
     return {
         number: works[number].step.in_block(visit._replace(found=found), share)
         for (number, visit), share in zip(visits.items(), shares)

@@ -81,7 +81,7 @@ def _found(
     with may_use(resources.thread_count):
         run = OneFile(steps, resources, progress)
         run.work_on(FilePoints(cloud, resources), progress.part(0.0, 0.95))
-        return run.found(progress.part(0.95, 1.0))
+        return run.result(progress.part(0.95, 1.0))
 
 
 def _classes(values: SimpleNamespace, sets: Sequence[ParameterSet]) -> np.ndarray | None:
@@ -185,7 +185,7 @@ def _terrain(values: SimpleNamespace, sets: Sequence[ParameterSet]) -> dict[str,
     with may_use(resources.thread_count):
         run = OneFile([step], resources, progress)
         run.work_on(FilePoints(cloud, resources), progress)
-    (rasters,) = run.told
+    (rasters,) = run.step_summaries
     return {name: rasters[name] for name in names}
 
 

@@ -13,12 +13,11 @@ from ..core.parameters import ParameterSet, parameter
 from ..core.points import Points
 from ..core.progress import SILENT, Progress
 from ..crs.system import unit_name
-from ..engine.blocks import Blocks
+from ..engine.blocks import Blocks, Visit
 from ..engine.memory import Cost
 from ..engine.step import Allocate, PointResult, PointStep
 from ..engine.store import OTHERS, BlockPoints, Marks
 from ..engine.summary import TileSummary
-from ..engine.visits import Visit
 from ..las.cloud import PointCloud
 from ..las.crs_records import read_crs
 from ..las.edits import Edits

@@ -10,11 +10,10 @@ import numpy as np
 from ..classes.ground_classes import GroundClasses, GroundCounts
 from ..core.parameters import ParameterSet, parameter
 from ..core.progress import SILENT, Progress
-from ..engine.blocks import Blocks
+from ..engine.blocks import Blocks, Visit
 from ..engine.step import Allocate, PointResult, PointStep, with_classes
 from ..engine.store import Marks
 from ..engine.summary import TileSummary
-from ..engine.visits import Visit
 from ..las.cloud import PointCloud
 from ..las.edits import Edits
 from ..las.lasfile import LasFile

@@ -13,12 +13,11 @@ from ...classes.ground_classes import ROADS_FLAG, GroundClasses, GroundCounts
 from ...classes.kept_classes import DECIDED, ROADS, is_one_of
 from ...core.points import Box
 from ...core.progress import Progress
-from ...engine.blocks import Blocks
+from ...engine.blocks import Blocks, Visit
 from ...engine.memory import Cost
 from ...engine.step import PointStep, Step, with_classes
 from ...engine.store import Marks
 from ...engine.summary import TileSummary
-from ...engine.visits import Visit
 from ...las.cloud import PointCloud
 from ...las.return_numbers import MULTI_RETURN, SeveralReturns
 from ...survey.area import Area

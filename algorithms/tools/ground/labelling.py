@@ -14,9 +14,8 @@ from ...core.errors import BareEarthError
 from ...core.parameters import ParameterSet
 from ...core.points import Box, Points
 from ...core.progress import Notes, Progress
-from ...engine.blocks import Blocks
+from ...engine.blocks import Blocks, Visit
 from ...engine.store import BlockPoints
-from ...engine.visits import Visit
 from ...filters import method_of
 from ...filters.method import Decisions, warn_of_extent, warn_of_little_ground
 from ...filters.stages.noise import UNTHINNED

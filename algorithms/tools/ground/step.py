@@ -19,11 +19,10 @@ from ...core.parameters import ParameterSet
 from ...core.points import Box, Frame
 from ...core.progress import SILENT, Progress
 from ...core.words import counted
-from ...engine.blocks import Block, Blocks
+from ...engine.blocks import Block, Blocks, Visit
 from ...engine.step import Allocate, PointResult, PointStep, Step, with_classes
 from ...engine.store import Marks, Store
 from ...engine.summary import TileSummary
-from ...engine.visits import Visit
 from ...filters import method_of
 from ...las.cloud import PointCloud
 from ...las.edits import Edits

@@ -17,12 +17,11 @@ from ...core.progress import SILENT, Progress
 from ...core.words import counted
 from ...crs.measurable import require_measurable
 from ...engine.block_grid import BlockGrid, BlockIndex
-from ...engine.blocks import Blocks
+from ...engine.blocks import Blocks, Visit
 from ...engine.disk_store import RowsOnDisk, rows_in
 from ...engine.memory import Cost
 from ...engine.step import Look, Sink, Step
 from ...engine.store import OTHERS, Marks, Store
-from ...engine.visits import Visit
 from ...grids.cell_window import CellWindow
 from ...grids.cells import first_of_each
 from ...grids.expected_error import LOOKS
