@@ -40,6 +40,8 @@ class DeliveryFolder:
 
     def __init__(self, path: Path) -> None:
         self.path = Path(path)
+        # Whether the folder gets files one by one, before the whole delivery is finished.
+        self.has_begun = False
 
     @property
     def points(self) -> Path:
@@ -96,7 +98,7 @@ class DeliveryFolder:
 
     def begin(self, delivery: str) -> None:
         """Make the folder for files that are finished one by one, with an unfinished record."""
-        files = self._files
+        self.has_begun, files = True, self._files
         during, after = self._places_of_records
         with write_errors_told(self.path):
             self.path.mkdir(exist_ok=True)

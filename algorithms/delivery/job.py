@@ -136,7 +136,7 @@ class DeliveryJob(Settings):
         """Run the tool of a row, and return its result."""
         if not any_tool(row.tool).writes_points:
             result = self._run(row, progress)
-        elif self.sources.is_survey:
+        elif self.sources.output_kind == "folder":
             result = self._write_many(row, progress)
         else:
             result = self._write_one(row, progress)

@@ -43,12 +43,11 @@ def deliver(
     files, place, messages = Inputs(sources), DeliveryFolder(Path(folder)), _Messages(progress)
     place.check(files)
     files = _opened(files, sets, inputs, messages)
-    if files.is_survey:
+    if files.output_kind == "folder":
         place.begin(delivery)
     # On the disk of the folder, so that outputs can be moved there.
-    beside = place.path if files.is_survey else place.path.parent
-    new = partial(temporary_folder, beside)
-    with _cleaned_up_after_errors(place, files.is_survey), new() as working, new() as unpacked:
+    new = partial(temporary_folder, place.path if place.has_begun else place.path.parent)
+    with _cleaned_up_after_errors(place), new() as working, new() as unpacked:
         changed = {place.waiting / command: place.points for command in POINT_TOOLS}
         messages.folders = {working: place.path, **changed}
         summary = DeliverySummary(
@@ -132,14 +131,14 @@ def _opened(
 
 
 @contextlib.contextmanager
-def _cleaned_up_after_errors(place: DeliveryFolder, is_survey: bool) -> Iterator[None]:
+def _cleaned_up_after_errors(place: DeliveryFolder) -> Iterator[None]:
     """After a cancel or an error, remove an empty folder, and raise `FinishedFilesStay` after a
     cancel if the run can be continued.
     """
     try:
         yield
     except (BareEarthError, Cancelled, KeyboardInterrupt) as error:
-        if not is_survey:
+        if not place.has_begun:
             raise
         stays = place.leave()
         if stays and not isinstance(error, (BareEarthError, FinishedFilesStay)):

@@ -162,9 +162,9 @@ def checkpoints_of(values: SimpleNamespace) -> Checkpoints | None:
     return None if given is None else Checkpoints.of(given)
 
 
-def inputs_of(values: SimpleNamespace, is_survey: bool = False) -> Inputs:
-    """Return the files; a cluster works on one file as on a survey, too."""
-    return Inputs(values.sources, True if is_survey or values.scheduler else None)
+def inputs_of(values: SimpleNamespace, into_folder: bool = False) -> Inputs:
+    """Return the files; written into a folder, or by a cluster, one file is a survey as well."""
+    return Inputs(values.sources, True if into_folder or values.scheduler else None)
 
 
 def workers_of(values: SimpleNamespace, resources: Resources) -> Workers | None:

@@ -64,7 +64,7 @@ def bring_points(
     place = cache_of(values.cache), advice, progress.part(0.0, SHARE)
     inputs, found = bring_all(given, wanted, *place)
     for name, here in inputs.items():
-        setattr(values, name, here if len(here) > 1 or here.is_survey else here[0])
+        setattr(values, name, here if here.is_survey else here[0])
     values.progress = progress.part(SHARE, 1.0)
     return addresses_named(found)
 

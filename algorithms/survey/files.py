@@ -38,22 +38,21 @@ _MOST_NAMES = 3
 
 
 class Inputs(Tuple[Path, ...]):
-    """The files, folders and lists that a user gives, one file or a survey of many, and how they
-    are read.
-    """
+    """The files, folders and lists that a user gives, and how they are read."""
 
-    is_survey: bool
+    is_survey: bool  # whether a run works on them as on many files
     recursive: bool = False  # whether folders are searched with all their subfolders
     stated: str | None = None  # the CRS in place of that of the files, as for `open_las`
-    opened: Survey | None = None  # what they hold, if that is known
+    opened: Survey | None = None  # the opened files, if they were opened before
 
     def __new__(cls, sources: Sources, is_survey: bool | None = None) -> Inputs:
-        """Return them; nothing is no survey, and neither is a single file unless `is_survey`."""
+        """Return inputs, which are a survey if `is_survey`, by default unless they are one file."""
         if isinstance(sources, Inputs) and is_survey is None:
             return sources
         new = super().__new__(cls, map(Path, _several(sources)))
-        is_file = len(new) == 1 and not new[0].is_dir() and is_cloud(new[0])
-        new.is_survey = bool(new) and (not is_file if is_survey is None else is_survey)
+        if is_survey is None:
+            is_survey = len(new) != 1 or new[0].is_dir() or not is_cloud(new[0])
+        new.is_survey = is_survey and bool(new)
         return new
 
     def read_as(self, stated: str | None, recursive: bool = False) -> Inputs:
@@ -61,21 +60,21 @@ class Inputs(Tuple[Path, ...]):
         return self._with(stated=stated, recursive=recursive)
 
     def holding(self, survey: Survey) -> Inputs:
-        """Return the same inputs, whose files need not be opened again."""
+        """Return the same inputs with their opened files, which need not be opened again."""
         return self._with(opened=survey)
 
-    def _with(self, **changed: Any) -> Inputs:
-        new = Inputs(self, self.is_survey)
+    def _with(self, **changed: object) -> Inputs:
+        new = super().__new__(Inputs, self)
         vars(new).update({**vars(self), **changed})
         return new
 
     @property
     def output_kind(self) -> str:
-        """The kind of output that their points are written into: a survey becomes a folder."""
+        """The kind of output for the points: a folder for a survey, a file for one file."""
         return "folder" if self.is_survey else "cloud"
 
     def open(self, progress: Progress = SILENT) -> Survey:
-        """Open the files; a single one is a survey of one tile, whose header can be wrong."""
+        """Open the files; one file is a survey of one tile, whose header can be wrong."""
         if self.is_survey or self.opened is not None:
             return open_survey(self, progress)
         las = open_las(self[0], self.stated)
@@ -95,10 +94,10 @@ class Survey:
     """The files of a survey, sorted by their paths."""
 
     tiles: tuple[LasFile, ...]  # at least one, all in the same CRS
-    broken: tuple[BrokenTile, ...]  # those that cannot be read
+    broken: tuple[BrokenTile, ...]  # files that cannot be read
     crs: Crs
     stated: str | None = None  # the CRS that the user states in place of the records, as WKT
-    empty: tuple[LasFile, ...] = ()  # sound files without points, which are none of the tiles
+    empty: tuple[LasFile, ...] = ()  # valid files without points, which are not among the tiles
 
     @property
     def count(self) -> int:
@@ -135,8 +134,8 @@ class Survey:
 
 
 def open_survey(sources: Sources, progress: Progress = SILENT) -> Survey:
-    """Find the files of a survey in sources as of `find_files`, and read their headers; refuse a
-    survey if nothing can be read, or the files differ in CRS or units.
+    """Find the files of a survey, as `find_files` does, and read their headers; refuse files of
+    which none can be read, or that differ in CRS or units.
     """
     inputs = Inputs(sources)
     if inputs.opened is not None:
@@ -145,13 +144,13 @@ def open_survey(sources: Sources, progress: Progress = SILENT) -> Survey:
     paths = find_files(inputs, inputs.recursive, progress)
     files = [path for path in inputs if not path.is_dir()]
     named = set(map(_key, find_files(files, may_be_none=True)))
-    notes, tiles, found, broken = Notes(), [], [], []
+    notes, tiles, systems, broken = Notes(), [], [], []
     empty: list[LasFile] = []
     for number, path in enumerate(paths, start=1):
         try:
             tile = open_las(path, stated)
             _check_extent(tile)
-            found.append(_crs_of(tile, notes))
+            systems.append(_crs_of(tile, notes))
             tiles.append(tile)
         except NoPoints as error:
             empty += error.layouts
@@ -171,9 +170,9 @@ def open_survey(sources: Sources, progress: Progress = SILENT) -> Survey:
         )
     _tell(notes, progress)
     copies = copies_in(tiles, [_key(tile.path) in named for tile in tiles], progress)
-    pairs = [pair for pair in zip(tiles, found) if pair[0].path not in copies]
-    tiles, found = (list(column) for column in zip(*pairs))
-    crs = _common_crs(tiles, found, progress)
+    pairs = [pair for pair in zip(tiles, systems) if pair[0].path not in copies]
+    tiles, systems = (list(column) for column in zip(*pairs))
+    crs = _common_crs(tiles, systems, progress)
     tell_of_twins(tiles, progress)
     return Survey(tuple(tiles), tuple(broken), crs, stated, tuple(empty))
 
@@ -184,17 +183,17 @@ def find_files(
     progress: Progress = SILENT,
     may_be_none: bool = False,
 ) -> list[Path]:
-    """Return the paths of all point clouds in files, folders (with subfolders if recursive), .vpc,
-    and .txt with one path in each line relative to it, sorted, without duplicates.
+    """Return the paths of all point clouds in files, folders (with subfolders if recursive), .vpc
+    files, and .txt files with one relative path in each line; sorted, without duplicates.
     """
-    found: dict[str, Path] = {}
+    paths: dict[str, Path] = {}
     for source in _several(sources):
         for path in _expand(Path(source), recursive, progress):
-            found.setdefault(_key(path), path)
-    if not found and not may_be_none:
+            paths.setdefault(_key(path), path)
+    if not paths and not may_be_none:
         names = ", ".join(map(str, _several(sources))) or "what was given"
         raise BareEarthError(f"No .las, .laz or .copc.laz file is found in {names}.")
-    return sorted(found.values(), key=lambda path: path.as_posix())
+    return sorted(paths.values(), key=lambda path: path.as_posix())
 
 
 def _several(sources: Sources) -> Iterable[str | Path]:
@@ -202,7 +201,7 @@ def _several(sources: Sources) -> Iterable[str | Path]:
 
 
 def _key(path: Path) -> str:
-    """Return the same text for all paths of a file."""
+    """Return a text that is the same for all paths of a file."""
     return os.path.normcase(path.resolve())
 
 
@@ -213,7 +212,7 @@ def _expand(source: Path, recursive: bool, progress: Progress) -> Iterator[Path]
         for path in source.rglob("*") if recursive else source.iterdir():
             # Hidden files belong to other programs, or are not finished yet.
             is_hidden = path.name.startswith(".")
-            # The points of an overview are those of other files.
+            # An overview repeats points of other files.
             if is_cloud(path) and not is_hidden and path.is_file() and not is_overview(path):
                 yield path
     elif suffix == VPC_SUFFIX:
@@ -244,7 +243,7 @@ def _expand(source: Path, recursive: bool, progress: Progress) -> Iterator[Path]
 
 
 def _tell_of_files_elsewhere(source: Path, paths: list[Path], progress: Progress) -> None:
-    """Warn if a virtual point cloud lists files that are not in its folder or a subfolder."""
+    """Warn if a virtual point cloud lists files outside its folder and the subfolders."""
     folder = source.parent.resolve()
     elsewhere = [path for path in paths if folder not in path.resolve().parents]
     if elsewhere:
@@ -270,7 +269,8 @@ def _listed(source: Path) -> list[Path]:
 
 
 def _crs_of(layout: LasFile, notes: Notes) -> Crs:
-    """Return the CRS of a file; `_common_crs` warns of files that do not state one."""
+    """Return the CRS of a file, and note what is wrong with a stated one."""
+    # `_common_crs` warns of files that state none.
     crs = read_crs(layout)
     if crs != Crs():
         read_crs(layout, notes)
@@ -288,12 +288,12 @@ def _check_extent(layout: LasFile) -> None:
 def _common_crs(tiles: list[LasFile], stated: list[Crs], progress: Progress) -> Crs:
     """Return the common CRS of all tiles; refuse tiles that differ in their CRS."""
     groups: dict[Crs, list[LasFile]] = {}
-    # Those that state a vertical datum first, since others can be of the same group as any of them.
+    # CRS with a vertical datum come first, since a CRS without one is equal to any of them.
     for tile, crs in sorted(zip(tiles, stated), key=lambda pair: pair[1].datum is None):
         same = next((group for group in groups if is_same_crs(group, crs)), crs)
         groups.setdefault(same, []).append(tile)
     known, unstated = [crs for crs in groups if crs != Crs()], groups.get(Crs(), [])
-    # Of one file the same words as when it is read.
+    # For one file, the same words as when it is read.
     say, their = ("do not say", "their") if len(unstated) > 1 else ("does not say", "its")
     lack = f"{_names(unstated)} {say} {their} CRS:"
     if not known:
@@ -322,7 +322,7 @@ def _common_crs(tiles: list[LasFile], stated: list[Crs], progress: Progress) -> 
 def _tell_of_datums(
     tiles: list[LasFile], stated: list[Crs], common: Crs, progress: Progress
 ) -> None:
-    """Tell of vertical datums that may differ, and of files that state none."""
+    """Report vertical datums that may differ, and files that state none."""
     if common.datum is None:
         return
     others: dict[str, list[LasFile]] = {}
@@ -333,7 +333,7 @@ def _tell_of_datums(
     if silent:
         text = f"No vertical datum is stated by {_names(silent)}: that of the others is used,"
         if common.datum.is_ellipsoid:
-            # Heights above the sea differ from these by up to 100 m.
+            # Heights above the sea differ from heights above the ellipsoid by up to 100 m.
             progress.warning(f"{text} {common.datum.crs}. Check that their heights fit together.")
         else:
             progress.info(f"{text} {common.datum.crs}.")
@@ -352,7 +352,7 @@ def _names(tiles: list[LasFile]) -> str:
 
 
 def _tell(notes: Notes, progress: Progress) -> None:
-    """Pass on the messages of many files: equal ones once, with the number of files."""
+    """Report equal messages of many files once, with the number of files."""
     for (kind, text), count in Counter(notes.messages).items():
         text = f"{text} (in {count} files)" if count > 1 else text
         (progress.warning if kind == "warning" else progress.info)(text)

@@ -39,7 +39,7 @@ class Setting(NamedTuple):
         """Return the command that runs the setting on all points, and the call in the console of
         QGIS, which is empty if there is none.
         """
-        is_one, (stem, suffix) = not paths.is_survey, split_name(paths[0])
+        is_one, (stem, suffix) = paths.output_kind == "cloud", split_name(paths[0])
         output = f"{stem}_{self.name.replace(':', '_')}{suffix if is_one else ''}"
         target = paths[0].with_name(output)
         words = ["bare-earth", "classify", *map(str, paths), str(target)]
