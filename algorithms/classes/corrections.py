@@ -15,7 +15,7 @@ from ..survey.area import Area, Polygon
 from ..survey.shapes import Geometry, Place, Shapes, located
 from ..survey.vector_files import read_polygons_with_classes
 
-# Points that get this class by hand are classified again.
+# A later run classifies points again whose class was set to this one by hand.
 _NEVER_CLASSIFIED = 0
 _LARGEST_CLASS = 255
 
@@ -27,21 +27,21 @@ class Corrections(Geometry):
     polygons: tuple[Polygon, ...] = ()  # as in `Area`. Where polygons overlap, the last one counts.
     # The class of the points in each polygon. With the class of the ground, they are ground.
     classes: tuple[int, ...] = ()
-    # How many polygons have no class: places that nobody has looked at yet, which are not used.
+    # The number of polygons without a class, which are not used: places still to be looked at.
     unanswered: int = field(default=0, init=False)
 
     def __post_init__(self) -> None:
         if len(self.polygons) != len(self.classes):
             raise BareEarthError("Each polygon of the corrections must have a class.")
         answered = [number for number, value in enumerate(self.classes) if not _is_none(value)]
-        if not answered:  # the class of the first one is refused
+        if not answered:  # the missing class of the first polygon is refused below
             answered = list(range(len(self.classes)))
         if len(answered) < len(self.classes):
             object.__setattr__(self, "unanswered", len(self.classes) - len(answered))
-            kept = tuple(self.polygons[number] for number in answered)
+            polygons = tuple(self.polygons[number] for number in answered)
             if isinstance(self.polygons, Shapes):
-                kept = Shapes(kept, self.polygons.crs, self.polygons.source)
-            object.__setattr__(self, "polygons", kept)
+                polygons = Shapes(polygons, self.polygons.crs, self.polygons.source)
+            object.__setattr__(self, "polygons", polygons)
         values = tuple(_class(self.classes[number]) for number in answered)
         object.__setattr__(self, "classes", values)
         if self.polygons:
@@ -64,12 +64,12 @@ class Corrections(Geometry):
         return np.array([-1, *self.classes], dtype=np.int16)[numbers]
 
 
-def read_corrections(source: Any) -> Corrections:
-    """Read the polygons of a source with their classes, and nothing else."""
+def read_corrections(source: object) -> Corrections:
+    """Read the polygons of a source with their classes, and no other geometries."""
     return Corrections(*read_polygons_with_classes(source))
 
 
-def _is_none(value: Any) -> bool:
+def _is_none(value: object) -> bool:
     """Return whether an attribute has no value."""
     return value is None or value == "" or value != value
 
@@ -99,8 +99,8 @@ class ByHand(NamedTuple):
 
 
 def changed_since(part: PointCloud) -> np.ndarray:
-    """Return which points have another class than the remembered one of an earlier run, bool (n,),
-    but not those set to 0, never classified, which are classified again.
+    """Return which points have another class than the one remembered by an earlier run, bool (n,);
+    points set to 0 (never classified) are not among them, since they are classified again.
     """
     if part.remembered is None:
         return np.zeros(part.count, dtype=bool)
@@ -109,9 +109,8 @@ def changed_since(part: PointCloud) -> np.ndarray:
 
 
 def to_remember(part: PointCloud, classes: np.ndarray) -> np.ndarray:
-    """Return the values to remember for the new classes of points, uint8 (n,): the class, or
-    another value for points that keep a class set by hand.
+    """Return the values to remember for the new classes of points, uint8 (n,): the class, or a
+    different value for points that keep a class set by hand, so that the next run finds these.
     """
-    # So the next run detects these again.
     stays = changed_since(part) & (classes == part.classification)
     return np.where(stays, _LARGEST_CLASS - classes, classes)

@@ -15,7 +15,7 @@ from .kept_classes import used
 from .point_counts import count_classes
 from .selection import Selection
 
-# The flag of points that are ground where they lie on it.
+# The flag of points of rails and roads, which count as ground if they lie on it.
 ROADS_FLAG = "roads"
 
 

@@ -32,8 +32,8 @@ class PointChooser:
     def choose(
         self, part: PointCloud, counts: PointCounts
     ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Return which points lie in the area, take part, and are known ground, each bool (n,), and
-        count them; refuse a geographic CRS and classes that do not fit.
+        """Return which points lie in the area, which take part, and which are known ground, bool
+        (n,), and count them; refuse a geographic CRS and classes that do not fit.
         """
         part.require_projected()
         self.check_classes(part.path, part.point_format)
@@ -65,8 +65,8 @@ class PointChooser:
         return np.ones(part.count, dtype=bool) if self.area is None else self.area.of(part)
 
     def tell(self, counts: PointCounts, path: Path, progress: Progress) -> None:
-        """Tell how many points lie in the area and take part, when all points are counted; refuse a
-        file without any.
+        """Report how many points lie in the area and take part, after all points were counted;
+        refuse a file if no point does.
         """
         if self.area is not None:
             if not counts.inside:
@@ -82,11 +82,11 @@ class PointChooser:
             )
 
     def no_point_in_area(self, of: str, box: Box) -> BareEarthError:
-        """Return the error for an area without points; `box` holds all points `of` some files."""
+        """Return the error for an area without points of some files, given the extent of these."""
         return outside("the area", cast(Area, self.area).bounds, of, box)
 
     def tell_of_corrections(self, progress: Progress) -> None:
-        """Warn that no point gets its class from the polygons of the corrections, if any."""
+        """If there are polygons of corrections, warn that no point gets its class from them."""
         if self.corrections.polygons:
             progress.warning(
                 "No point gets its class from the polygons of the corrections. Give them in the"

@@ -17,27 +17,27 @@ _STEP = 1 << 20
 class PointCounts:
     """Counts of the parts of a file so far."""
 
-    points: int = 0  # all
+    points: int = 0  # all points
     withheld: int = 0
-    unnumbered: int = 0  # without return number
+    unnumbered: int = 0  # points without return number
     overlap: int = 0
     from_zero: bool = False  # whether the return numbers begin at 0
-    free: int = 0  # in the area and its surroundings, not withheld
-    eligible: int = 0  # may change their class
-    of_returns: int = 0  # of these, of the chosen returns
-    known: int = 0  # of known ground
-    by_hand: int = 0  # with a class set by hand
-    selected: int = 0  # all that take part
+    free: int = 0  # points in the area and its surroundings that are not withheld
+    eligible: int = 0  # points that may change their class
+    of_returns: int = 0  # eligible points of the chosen returns
+    known: int = 0  # points of known ground
+    by_hand: int = 0  # points with a class set by hand
+    selected: int = 0  # points that take part
     # int64 (256,), points of each class.
     classes: np.ndarray = field(default_factory=lambda: np.zeros(256, dtype=np.int64))
-    # int64 (256,), those in the area and its surroundings.
+    # int64 (256,), points of each class in the area and its surroundings.
     classes_within: np.ndarray = field(default_factory=lambda: np.zeros(256, dtype=np.int64))
-    inside: int = 0  # in the area itself
-    wanted: int = 0  # of these, those that take part
+    inside: int = 0  # points in the area itself
+    wanted: int = 0  # points in the area that take part
     bounds: Box | None = None  # smallest x and y, largest x and y, in units of the CRS
 
     def add(self, part: PointCloud, within: np.ndarray | None, **masks: np.ndarray) -> None:
-        """Count the points of a part, and of masks named as the attributes."""
+        """Count the points of a part, and those of masks, which have the names of attributes."""
         self.points += part.count
         self.from_zero |= part.from_zero
         classes, free = part.classification, ~part.withheld
@@ -55,12 +55,12 @@ class PointCounts:
         self.bounds = box_round(np.array(boxes))
 
     def add_counts(self, **masks: np.ndarray) -> None:
-        """Count the points of masks named as the attributes."""
+        """Count the points of masks, which have the names of attributes."""
         for name, mask in masks.items():
             setattr(self, name, getattr(self, name) + int(np.count_nonzero(mask)))
 
     def why_empty(self, place: str) -> str:
-        """Return why no point takes part, and what to change."""
+        """Return a sentence that says why no point takes part, and what to change."""
         if self.eligible:
             return f"No point of {place} is a last or single return. Choose all returns instead."
         if not self.free:
@@ -73,12 +73,13 @@ class PointCounts:
 
 
 def by_class(counts: np.ndarray) -> dict[int, int]:
-    """Return the counts of the classes that there are, from an array with one for each class."""
+    """Return the counts of the classes that occur, given an array of the counts of all classes."""
     return {value: int(counts[value]) for value in np.flatnonzero(counts).tolist()}
 
 
 def count_classes(classes: np.ndarray) -> np.ndarray:
-    """Return the number of points of each class; in steps, since bincount needs much memory."""
+    """Return the number of points of each class, int64 (256,)."""
+    # In steps, since bincount needs much memory.
     counts = np.zeros((256, 256), dtype=np.int64)
     even = len(classes) - len(classes) % 2
     # Two classes form one number, so that only half as many numbers are counted.

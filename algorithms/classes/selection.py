@@ -198,16 +198,18 @@ class Selection(ParameterSet):
         """Return the classes set by hand; None without corrections and remembered classes."""
         if part.remembered is None and not corrections.polygons:
             return None
-        told = corrections.classes_of(part)
-        inside = (told >= 0) & self._correctable(part)
-        inside &= (told != self.to_class) | self._of_returns(part, _unnumbered(part))
-        classes = np.where(inside, told, part.classification).astype(np.uint8)
-        return ByHand(inside | changed_since(part), classes)
+        of_polygons = corrections.classes_of(part)
+        # Points may get a class by hand that keep theirs by default.
+        corrected = self._of_classes(part, self.from_classes or ALL_CLASSES, None)
+        corrected &= of_polygons >= 0
+        corrected &= (of_polygons != self.to_class) | self._of_returns(part, _unnumbered(part))
+        classes = np.where(corrected, of_polygons, part.classification).astype(np.uint8)
+        return ByHand(corrected | changed_since(part), classes)
 
     def tell(
         self, counts: PointCounts, path: Path, progress: Progress, in_area: bool = False
     ) -> None:
-        """Tell how many points of a file take part, and why others do not."""
+        """Report how many points of a file take part, and why the others do not."""
         given = () if self.from_classes == ALL_CLASSES else self.from_classes or ()
         noise = [value for value in NOISE if value not in given]
         left_out = ", ".join(
@@ -249,7 +251,7 @@ class Selection(ParameterSet):
         progress.info(f"{counts.selected:,} of {counts.points:,} points take part.")
 
     def tell_of_kept(self, counts: PointCounts, progress: Progress) -> None:
-        """Tell which classes stay by default, and how many points are of overlap."""
+        """Report which classes stay by default, and how many points are overlap."""
         if not self.from_classes:
             tell_of_kept(counts, {self.to_class, *(self.seed_classes or ())}, progress)
         if counts.overlap:
@@ -267,11 +269,11 @@ class Selection(ParameterSet):
     def known_ground(
         self, cloud: PointCloud, within: np.ndarray | None = None, by_hand: ByHand | None = None
     ) -> np.ndarray:
-        """Return which points are known ground, only among those within if given."""
+        """Return which points, among those within if given, are known ground."""
         known = is_one_of(cloud.classification, self.seed_classes or ())
         if by_hand is not None:
             np.copyto(known, by_hand.classes == self.to_class, where=by_hand.known)
-        known &= self._used(cloud)
+        known &= used(cloud, self.overlap)
         return known if within is None else known & within
 
     def classes(
@@ -289,7 +291,7 @@ class Selection(ParameterSet):
         eligible = self._eligible(cloud, inside)
         changes = eligible
         if self.others == "keep":
-            # Also old ground of returns that did not take part, since it was not confirmed.
+            # This includes old ground of returns that did not take part, since nothing confirms it.
             changes = eligible & is_one_of(old, (NEVER_CLASSIFIED, GROUND, self.to_class))
         classes = old.copy()
         np.copyto(classes, UNCLASSIFIED, where=changes)
@@ -313,27 +315,19 @@ class Selection(ParameterSet):
         return (part.return_number >= part.number_of_returns) | unnumbered
 
     def _eligible(self, cloud: PointCloud, within: np.ndarray | None) -> np.ndarray:
-        """Return which points (within) may change their class, of all returns."""
+        """Return which points, of all returns, may change their class."""
         return self._of_classes(cloud, self.from_classes or (*DECIDED, self.to_class), within)
-
-    def _correctable(self, cloud: PointCloud) -> np.ndarray:
-        """Return which points may get a class by hand, also of classes that stay by default."""
-        return self._of_classes(cloud, self.from_classes or ALL_CLASSES, None)
 
     def _of_classes(
         self, cloud: PointCloud, classes: tuple[int, ...] | str, within: np.ndarray | None
     ) -> np.ndarray:
-        """Return which points (within) have one of the classes, and are not left out."""
+        """Return which points have one of the classes and are used, among those within if given."""
         if isinstance(classes, str):  # all
-            found = ~is_one_of(cloud.classification, NOISE)
+            result = ~is_one_of(cloud.classification, NOISE)
         else:
-            found = is_one_of(cloud.classification, classes)
-        found &= self._used(cloud)
-        return found if within is None else found & within
-
-    def _used(self, cloud: PointCloud) -> np.ndarray:
-        """Return which points are not left out for their flags."""
-        return used(cloud, self.overlap)
+            result = is_one_of(cloud.classification, classes)
+        result &= used(cloud, self.overlap)
+        return result if within is None else result & within
 
 
 def _unnumbered(part: PointCloud) -> np.ndarray:

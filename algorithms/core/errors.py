@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 import unicodedata
 
-# An address, of which user, password and query may be secret.
+# An address; its user, password and query may be secret.
 _ADDRESS = re.compile(
     r"\b([a-z][a-z0-9+.-]+:/{1,2})(?:[^\s/?#@]*@)?([^\s?#]*)(?:[?#]\S*[\w=])?", re.IGNORECASE
 )

@@ -8,7 +8,8 @@ import itertools
 import os
 import stat
 from pathlib import Path
-from typing import Any, Iterable, Iterator
+from types import TracebackType
+from typing import Iterable, Iterator
 
 from .errors import BareEarthError, OutputInUse
 from .temporary import (
@@ -49,8 +50,8 @@ _ENDINGS = (".copc.laz", ".las", ".laz", ".vpc", ".txt", ".tif", ".tiff")
 
 
 def split_name(path: Path) -> tuple[str, str]:
-    """Return the name of a file without its ending, and the ending, such as ``.copc.laz``, which is
-    empty for folders and other kinds of files.
+    """Return the name of a file without its ending, and the ending, such as ``.copc.laz``; the
+    ending is empty for folders and for other kinds of files.
     """
     ending = next((known for known in _ENDINGS if path.name.lower().endswith(known)), "")
     stem = path.name[: -len(ending) or None]
@@ -89,10 +90,10 @@ def check_output(target: Path, sources: tuple[Path, ...] = ()) -> None:
 
 
 def make_work_folder(path: Path) -> None:
-    """Make a hidden folder in a folder of outputs, where a run may remove what it likes; refuse a
+    """Make a hidden folder in a folder of outputs, in which a run may remove all files; refuse a
     link.
     """
-    # By a link, somebody who writes into a shared folder could lead a run elsewhere.
+    # With a link, another user of a shared folder could make a run remove files elsewhere.
     path.mkdir(exist_ok=True)
     # Windows has more than one kind of links.
     if path.resolve() != path.parent.resolve() / path.name:
@@ -100,16 +101,16 @@ def make_work_folder(path: Path) -> None:
 
 
 def check_lengths(folder: Path, names: Iterable[str]) -> None:
-    """Refuse a folder, which need not exist yet, in which the paths of files (`names`, with their
-    folders) would be too long.
+    """Refuse a folder, which need not exist yet, if the paths of files in it would be too long;
+    `names` are relative paths.
     """
     # Windows allows most programs, QGIS among them, 259 characters.
-    there = next((parent for parent in (folder, *folder.parents) if parent.is_dir()), folder)
+    existing = next((parent for parent in (folder, *folder.parents) if parent.is_dir()), folder)
     longest = max(len(os.path.abspath(folder / name)) for name in names)
-    left = longest - len(os.path.abspath(there)) - MARKS_LENGTH - 2
-    ending = "x" * min(max(left, 1), _LONGEST_ENDING)
+    length = longest - len(os.path.abspath(existing)) - MARKS_LENGTH - 2
+    ending = "x" * min(max(length, 1), _LONGEST_ENDING)
     try:
-        remove_temporary(make_temporary(there / f"x.{ending}"))
+        remove_temporary(make_temporary(existing / f"x.{ending}"))
     except FileNotFoundError as error:
         raise BareEarthError(
             f"Cannot write into {folder}: its path is too long. With the names of files it would"
@@ -133,18 +134,20 @@ def is_same_file(first: Path, second: Path) -> bool:
 
 
 class Outputs(contextlib.ExitStack):
-    """The output files of a run, which get their names together when the block ends, or none after
-    an exception (including a cancel), when old files stay unchanged.
+    """The output files of a run, which get their names together when the block ends; after an
+    exception, such as a cancel, they are removed, and old files stay unchanged.
     """
 
     def __init__(self) -> None:
         super().__init__()
-        # Where the output is made, a file or a folder; its name; names of files that it outdates.
+        # The temporary file or folder of each output, its target, and the names of files that it
+        # makes out of date.
         self._unnamed: list[tuple[Path, Path, tuple[str, ...]]] = []
 
     def file(self, target: Path, outdated: Iterable[str] = ()) -> Path:
         """Return a temporary file beside the target, with its ending and the permissions of an old
-        one; `outdated` names files beside an old target that are removed, since they describe it.
+        target; at the end, `outdated` files beside the target, which describe the old one, are
+        removed.
         """
         # Libraries choose the format by the ending.
         with write_errors_told(target):
@@ -158,7 +161,7 @@ class Outputs(contextlib.ExitStack):
         return self._add(folder, target, outdated) / target.name
 
     def waiting(self, target: Path) -> Path:
-        """Return where an output waits for its name; the target itself if it does not."""
+        """Return the temporary path of an output; the target itself if it has none."""
         for temporary, name, _ in self._unnamed:
             if name == target:
                 return temporary / target.name if temporary.is_dir() else temporary
@@ -169,7 +172,12 @@ class Outputs(contextlib.ExitStack):
         self._unnamed.append((temporary, target, tuple(outdated)))
         return temporary
 
-    def __exit__(self, kind: Any, error: Any, traceback: Any) -> bool | None:
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        traceback: TracebackType | None,
+    ) -> bool | None:
         if error is None:
             try:
                 self._finish()
@@ -186,8 +194,8 @@ class Outputs(contextlib.ExitStack):
         return super().__exit__(kind, error, traceback)
 
     def _finish(self) -> None:
-        """Give all files their names, or, if another program has an old file open, leave all new
-        ones beside the old ones under other names, which the error gives.
+        """Give all files their names; if another program has an old file open, keep all new files
+        under other names, which the error states.
         """
         moves = []
         for temporary, target, _ in self._unnamed:
@@ -213,7 +221,7 @@ class Outputs(contextlib.ExitStack):
 
 
 def _kept(moves: Iterable[tuple[Path, Path]]) -> str:
-    """Give new files names that are free, and say which."""
+    """Give new files free names, and return a sentence with these."""
     names = []
     for source, target in moves:
         if source.exists() and not is_temporary(target):
@@ -224,7 +232,7 @@ def _kept(moves: Iterable[tuple[Path, Path]]) -> str:
 
 
 def free_path(path: Path) -> Path:
-    """Return a path beside another one, with a similar name, where nothing is."""
+    """Return a path with a similar name in the same folder that does not exist yet."""
     ending = split_name(path)[1] or path.suffix
     stem = path.name[: -len(ending) or None]
     numbers = itertools.chain([""], itertools.count(2))
@@ -255,8 +263,8 @@ def new_folder(path: Path) -> Iterator[Path]:
 
 @contextlib.contextmanager
 def temporary_folder(beside: Path) -> Iterator[Path]:
-    """Yield a new folder inside `beside`, and remove it with its contents when the block ends, or
-    by `remove_leftovers` if the process is killed.
+    """Yield a new folder inside `beside`, which is removed with its contents when the block ends;
+    if the process is killed, `remove_leftovers` does so later.
     """
     with write_errors_told(beside):
         folder = make_temporary_folder(beside)
@@ -267,21 +275,21 @@ def temporary_folder(beside: Path) -> Iterator[Path]:
 
 
 def check_free(target: Path) -> None:
-    """Refuse (`OutputInUse`) a file that is read-only, or that another program has open, if the
-    system, as Windows, would not replace it.
+    """Refuse (`OutputInUse`) a file that the system would not replace, as Windows does not if the
+    file is read-only or open in another program.
     """
     try:
         if target.is_file():
             if os.name == "nt" and not os.stat(target).st_mode & stat.S_IWRITE:
                 raise _in_use(target)
-            patiently(os.replace, target, target)  # Windows refuses it as it will at the end
+            patiently(os.replace, target, target)  # fails in Windows if it would fail at the end
     except OSError as error:
         if getattr(error, "winerror", None) in IN_USE:
             raise _in_use(target) from error
 
 
 def _in_use(target: Path) -> OutputInUse:
-    """Return what is said of a file that cannot be replaced."""
+    """Return the error for a file that cannot be replaced."""
     writable = os.stat(target).st_mode & stat.S_IWRITE
     reason = (
         _REASONS[errno.EBUSY]
@@ -293,14 +301,14 @@ def _in_use(target: Path) -> OutputInUse:
 
 def rename(temporary: Path, target: Path) -> None:
     """Rename a file on the same disk; an old target is replaced."""
-    # A network disk may report an error although it has renamed the file: if its first answer was
-    # lost, it answers the repeated request that the temporary file does not exist.
+    # A network disk may report an error although it has renamed the file: if its first answer is
+    # lost, the request is repeated, and the answer is that the temporary file does not exist.
     written = os.stat(temporary)
     try:
         patiently(os.replace, temporary, target)
     except OSError as error:
         with contextlib.suppress(OSError):
-            # Some network disks of Windows number no files.
+            # Some network disks of Windows have no inode numbers.
             if written.st_ino and os.path.samestat(written, os.stat(target)):
                 return
         if getattr(error, "winerror", None) in IN_USE and os.path.exists(target):
@@ -318,7 +326,7 @@ def _mode_of(target: Path) -> int | None:
 
 @contextlib.contextmanager
 def write_errors_told(target: Path) -> Iterator[None]:
-    """Turn errors of the operating system into a `BareEarthError` on what cannot be written."""
+    """Turn errors of the operating system into a `BareEarthError` that names the target."""
     try:
         yield
     except OSError as error:
@@ -326,7 +334,7 @@ def write_errors_told(target: Path) -> Iterator[None]:
 
 
 def describe_write_error(target: Path, error: OSError | ValueError) -> BareEarthError:
-    """Return a sentence for an error of the operating system while writing `target`."""
+    """Return the error for an error of the operating system while writing `target`."""
     reason = str(error)
     if isinstance(error, OSError):
         reason = _REASONS.get(error.errno or 0, error.strerror or reason)

@@ -1,4 +1,4 @@
-"""When packages are imported: early in a thread, when they are first used, or not at all."""
+"""Decides when packages are imported: early in a thread, at their first use, or not at all."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ from importlib.machinery import ModuleSpec
 from types import ModuleType
 from typing import Any, Iterator
 
-# Packages that others import, and runs seldom or never use, or not at once: each with those that it
-# imports where they are installed, and that runs do without.
+# Packages that other packages import, but that runs use late, seldom or never; with the optional
+# packages that they would import, and that runs do not need.
 _LATE: dict[str, tuple[str, ...]] = {
     "numpy.f2py": (), "numpy.testing": (), "scipy.special": (),
     "boto3": (), "pyproj": (),
@@ -27,7 +27,7 @@ _lock = threading.Lock()
 def import_early(*names: str) -> None:
     """Import modules that a later step needs in a thread, while the caller reads a file."""
 
-    # Modules that are missing or broken are left to that step, which says so.
+    # If a module is missing or broken, the later step reports it.
     def load() -> None:
         with contextlib.suppress(ImportError):
             for name in names:
@@ -37,15 +37,15 @@ def import_early(*names: str) -> None:
 
 
 def own_this_process() -> None:
-    """Note that this process is ours, not that of a program that uses the library."""
-    # Threads of BLAS, for which numpy asks when it is imported, take time to start, and all its
-    # matrices here are small.
+    """Note that this process belongs to Bare Earth, not to a program that uses the library."""
+    # numpy starts threads of BLAS when it is imported, which takes time. All matrices here are
+    # small, so one thread is enough.
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     _is_ours.set()
 
 
 def import_only_what_runs_need() -> None:
-    """Let some packages wait until they are used, if this process is ours."""
+    """Import some packages only when they are used, if this process belongs to Bare Earth."""
     if not _is_ours.is_set():
         return
     importlib.import_module("numpy")  # asks itself for its inner modules
@@ -61,15 +61,15 @@ def import_only_what_runs_need() -> None:
 
 
 class _Late(ModuleType):
-    """A module that is imported when one of its attributes is first asked for."""
+    """A module that is imported when one of its attributes is first used."""
 
     def __init__(self, name: str, spec: ModuleSpec | None, without: tuple[str, ...]) -> None:
         super().__init__(name)
-        self.__spec__ = spec  # asked for where it matters whether a package is installed
+        self.__spec__ = spec  # used to find out whether a package is installed
         self._without = without
 
     def __getattr__(self, name: str) -> Any:
-        # Python asks all modules for these.
+        # Python reads these attributes of all modules.
         if name in ("__file__", "__wrapped__", "__warningregistry__"):
             raise AttributeError(name)
         with _lock:

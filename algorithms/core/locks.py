@@ -14,17 +14,17 @@ from .files import describe_write_error
 
 # Errors of the system for a file that another process has locked.
 _LOCKED = (errno.EACCES, errno.EAGAIN, errno.EDEADLK)
-# Seconds after which a run that waits looks again.
+# Seconds between two attempts of a run that waits.
 _BEAT = 0.05
 
 
 @contextlib.contextmanager
 def alone_in(folder: Path) -> Iterator[None]:
     """Lock the file `lock` in an existing folder until the block ends; refuse a folder in which
-    another run works, or that cannot be written to.
+    another run works, or that is not writable.
     """
-    # The operating system removes the lock when the process ends, even if it is killed. If the file
-    # system has no locks, other runs are not refused.
+    # The operating system removes the lock when the process ends or is killed. If the file system
+    # has no locks, other runs are not refused.
     path = folder / "lock"
     with contextlib.ExitStack() as opened:
         try:
@@ -44,10 +44,10 @@ def alone_in(folder: Path) -> Iterator[None]:
 
 @contextlib.contextmanager
 def one_at_a_time(path: Path, waiting: Callable[[], object] = lambda: None) -> Iterator[None]:
-    """Wait until no other thread or process is in such a block for the same path, a file that is
-    made and stays; `waiting` is called meanwhile, and may end it by an exception.
+    """Run the block when no other thread or process is in such a block with the same path, a file
+    that is made and kept; `waiting` is called meanwhile, and may raise an exception.
     """
-    # If the file system has no locks, nobody waits.
+    # If the file system has no locks, several blocks run at the same time.
     with contextlib.ExitStack() as opened:
         with contextlib.suppress(OSError):
             number = opened.enter_context(open(path, "ab")).fileno()

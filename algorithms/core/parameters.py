@@ -74,7 +74,7 @@ class Declaration:
             return tuple(map(self._check_number, value))
         return self._check_number(value)
 
-    def _is_word(self, value: Any) -> bool:
+    def _is_word(self, value: object) -> bool:
         """Return whether a list, or its only element, is the word that may replace it."""
         only = value[0] if isinstance(value, (list, tuple)) and len(value) == 1 else value
         return bool(self.word) and isinstance(only, str) and only.strip().lower() == self.word
@@ -126,7 +126,7 @@ def parameter(
     empty: str = "not used",
     word: str = "",
 ) -> Any:
-    """Declare one field of a `ParameterSet`; arguments as of `Declaration`, of which `kind` must be
+    """Declare one field of a `ParameterSet`, with the arguments of `Declaration`; `kind` must be
     given if the default is None.
     """
     if kind is None:
@@ -139,9 +139,7 @@ def parameter(
 
 
 def parameter_of(declared: type[ParameterSet], name: str, **differently: Any) -> Any:
-    """Declare the same field as in another set, with other attributes of its `Declaration` where
-    they differ.
-    """
+    """Declare the field of another set again, with other attributes of its `Declaration`."""
     declaration = next(known for known in declared.declarations() if known.name == name)
     declaration = dataclasses.replace(declaration, **differently)
     return dataclasses.field(default=declaration.default, metadata={_KEY: declaration})
@@ -152,7 +150,7 @@ def shown_value(value: str | float) -> str:
     return value if isinstance(value, str) else f"{value:g}"
 
 
-def _kind_of(default: Any) -> str:
+def _kind_of(default: object) -> str:
     if isinstance(default, bool):
         return "boolean"
     if isinstance(default, int):
@@ -214,8 +212,8 @@ class HasSets:
 
     @classmethod
     def of(cls: type[_HasSets], sets: Iterable[ParameterSet], **fields: Any) -> _HasSets:
-        """Return one with parameter sets in any order, whose types say to which field they belong,
-        and with other fields; what no field has the type of are the `parameters`.
+        """Return an instance with other fields, and with parameter sets in any order: a set goes to
+        the field of its type, or to the field `parameters` if there is none.
         """
         names = {type(default): name for name, default in vars(cls()).items()}
         fields.update((names.get(type(given), "parameters"), given) for given in sets)

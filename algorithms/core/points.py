@@ -10,7 +10,7 @@ import numpy as np
 
 from .threads import in_threads
 
-# Fewest points of which threads that are free pick the coordinates.
+# Least number of points to be selected in several threads.
 _MANY = 1 << 18
 
 # Smallest x and y, largest x and y.
@@ -67,7 +67,7 @@ class Points(_Columns):
 
     @cached_property
     def found(self) -> dict[str, Any]:
-        """What functions have found out about the points, by name, to look it up again."""
+        """A cache in which functions keep what they have found out about the points, by name."""
         return {}
 
     @property

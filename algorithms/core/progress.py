@@ -6,10 +6,11 @@ import time
 from itertools import accumulate
 from typing import Iterator
 
-# Wanted seconds for a piece of a long step. A cancel waits for the end of the piece.
+# Seconds that a piece of a long step should take. A cancel waits for the end of the piece.
 _PIECE_SECONDS = 0.4
-# Points of the first piece, whose time is not known, and of the smallest.
+# Points of the first piece, whose time is not known.
 _FIRST_PIECE = 500_000
+# Points of the smallest piece.
 _LEAST_PIECE = 100_000
 
 
@@ -38,7 +39,7 @@ class Progress:
         """Tell the user something useful about the data or the settings."""
 
     def choice(self, text: str) -> None:
-        """Tell the user which setting was chosen automatically for the data."""
+        """Tell the user which setting was chosen automatically."""
         self.info(text)
 
     def warning(self, text: str) -> None:
@@ -52,7 +53,7 @@ class Progress:
         return _Part(self, start, end)
 
     def shares(self, *weights: float) -> list[Progress]:
-        """Return consecutive parts with lengths in proportion to the weights; 0 for no part."""
+        """Return consecutive parts with lengths in proportion to the weights."""
         ends, whole = list(accumulate(weights)), sum(weights) or 1.0
         return [
             self.part((end - weight) / whole, end / whole) for weight, end in zip(weights, ends)
@@ -111,12 +112,12 @@ class _Quiet(Progress):
 
 
 class Notes(Progress):
-    """Stores messages, to show them later or elsewhere, and passes on how much is done."""
+    """Stores messages, which are shown later or elsewhere, and passes on fractions."""
 
     def __init__(self, whole: Progress = Progress()) -> None:
         self._whole = whole
         self.messages: list[tuple[str, str]] = []  # kind (the called method) and text
-        self.seconds: dict[str, float] = {}  # by stage, in the order in which they ended first
+        self.seconds: dict[str, float] = {}  # by stage, in the order of their first ends
 
     def report(self, fraction: float) -> None:
         """Pass on how much is done."""
@@ -144,8 +145,8 @@ class Notes(Progress):
 
 
 def paced(count: int, most: int) -> Iterator[slice]:
-    """Yield consecutive pieces, of at most `most`, of a range of points; the time of a piece sets
-    the size of the next one.
+    """Yield consecutive pieces of a range of points, of at most `most` points; the size of a piece
+    follows from the time that the previous one took.
     """
     start, size = 0, _FIRST_PIECE
     while start < count:

@@ -13,7 +13,9 @@ import socket
 import sys
 import time
 from pathlib import Path
-from typing import Any, Callable, Container
+from typing import Callable, Container, TypeVar
+
+_Result = TypeVar("_Result")
 
 # Marks: computer, random characters, and process. An ending follows in the names of files. They are
 # short, since Windows allows most programs 259 characters for a whole path.
@@ -26,18 +28,18 @@ _DIGITS = "0123456789abcdefghijklmnopqrstuvwxyz"
 MARKS_LENGTH = 13
 # It cannot be seen whether a process of another computer still runs, only when it last wrote.
 _FORGOTTEN_SECONDS = 86_400.0
-# The marks of the files that this process writes now, and the name that users know instead; it is
+# The marks of the files that this process writes now, with the names of the outputs, which are
 # empty for folders.
 _written_now: dict[str, list[str]] = {}
 # Errors of Windows for a file that a program has open: access denied, in use.
 IN_USE = (5, 32)
-# Seconds for which a virus scanner or a copying service may have a file open, and between two
-# attempts.
+# Seconds for which a virus scanner or a copying service may have a file open.
 _PATIENCE = 5.0
+# Seconds between two attempts to use such a file.
 _PAUSE = 0.05
 
 
-def patiently(action: Callable[..., Any], *arguments: Any) -> Any:
+def patiently(action: Callable[..., _Result], *arguments: object) -> _Result:
     """Call a function of the file system; on Windows, wait some seconds for files that are in use
     before its OSError is raised.
     """
@@ -65,11 +67,11 @@ def remove(path: str | Path) -> None:
 
 
 def make_temporary(target: Path, mode: int | None = None) -> Path:
-    """Make an empty file beside the target, with its ending, and a name that says which process
-    writes it.
+    """Make an empty file beside the target, with the same ending, and a name that says which
+    process writes it.
     """
-    # Libraries choose the format by the ending. An existing file is never used: somebody who knew
-    # the name could have put a link there.
+    # Libraries choose the format by the ending. An existing file is never used: another user could
+    # have put a link there.
     found = _ENDING.search(target.name)
     ending = found[0] if found else ""
     flags = os.O_CREAT | os.O_EXCL | os.O_WRONLY
@@ -82,8 +84,8 @@ def make_temporary(target: Path, mode: int | None = None) -> Path:
 
 
 def make_temporary_folder(beside: Path) -> Path:
-    """Make a folder in `beside`, or beside the temporary folder that this is in."""
-    # So there are none in each other, whose paths would become too long.
+    """Make a folder in `beside`, or, if this is in a temporary folder, beside the latter."""
+    # Paths in nested temporary folders would become too long.
     for folder in reversed((beside, *beside.parents)):
         if _TEMPORARY.fullmatch(folder.name):
             beside = folder.parent
@@ -91,8 +93,8 @@ def make_temporary_folder(beside: Path) -> Path:
     return _make_marked(beside, "", "", lambda path: path.mkdir(mode=0o700))
 
 
-def _make_marked(folder: Path, ending: str, name: str, make: Callable[[Path], Any]) -> Path:
-    """Make something under a new temporary name; `name` is what users know instead."""
+def _make_marked(folder: Path, ending: str, name: str, make: Callable[[Path], object]) -> Path:
+    """Make a file or folder with a new temporary name; messages show `name` instead."""
     # The marks must be registered before it exists, so that no other thread removes it.
     known = [name]
     while True:
@@ -122,7 +124,7 @@ def _short(number: int, length: int = 1) -> str:
 
 @functools.cache
 def _computer() -> str:
-    """Return what names this computer in the names of temporary files."""
+    """Return four characters for this computer, for the names of temporary files."""
     digest = hashlib.sha256(os.fsencode(socket.gethostname())).digest()
     return _short(int.from_bytes(digest, "big") % 36**4, 4)
 
@@ -140,7 +142,7 @@ def is_temporary(path: Path) -> bool:
 
 
 def remove_leftovers(folder: Path, processes: Container[int] | None = None) -> None:
-    """Remove temporary files of killed processes (by default any of them) from a folder."""
+    """Remove the temporary files of killed processes, by default of all, from a folder."""
     # Files of running processes stay. On a shared disk, files of other computers are removed if
     # they have not changed for a day.
     if not folder.is_dir():
@@ -192,7 +194,7 @@ def _is_running(process: int) -> bool:
 
 
 def shown(path: object) -> str:
-    """Return a path, or a text with paths, with the names that users know of temporary files."""
+    """Return a path, or a text with paths, with the names of outputs in place of temporary ones."""
     return _IN_A_PATH.sub(_known, str(path))
 
 
@@ -200,5 +202,5 @@ def _known(found: re.Match[str]) -> str:
     (name,), separator = _written_now.get(found[1], [""]), found[4]
     if name:
         return name + separator
-    # The folder of another process is not known here, nor is it of interest.
+    # A temporary folder is left out of the path. A file of another process keeps its name.
     return "" if separator else found[0]

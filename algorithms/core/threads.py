@@ -9,7 +9,7 @@ from __future__ import annotations
 import contextlib
 import os
 import threading
-from typing import Any, Callable, Iterable, Iterator, Protocol, Sequence, TypeVar
+from typing import Any, Callable, ContextManager, Iterable, Iterator, Protocol, Sequence, TypeVar
 
 from .progress import SILENT, Progress
 
@@ -31,7 +31,7 @@ class Counter(Protocol):
 
     value: int
 
-    def get_lock(self) -> Any:
+    def get_lock(self) -> ContextManager[object]:
         """Return the lock."""
 
 
@@ -41,12 +41,12 @@ class _Counter:
     def __init__(self, value: int) -> None:
         self.value, self._lock = value, threading.Lock()
 
-    def get_lock(self) -> Any:
+    def get_lock(self) -> ContextManager[object]:
         return self._lock
 
 
 class SharedThreads:
-    """A number of threads (0 counts as 1) that several computations share, also in several
+    """A number of threads, at least 1, that several computations share, in one or in several
     processes.
     """
 
@@ -60,8 +60,10 @@ class SharedThreads:
 
     @contextlib.contextmanager
     def used(self) -> Iterator[None]:
-        """Let the calling thread be one of the threads, and use free ones, while the block runs."""
-        # If no thread is free, one that helps another computation ends soon.
+        """Make the calling thread one of the threads, which can use free threads, while the block
+        runs.
+        """
+        # If no thread is free, a thread that helps another computation will soon end.
         before = shared_threads()
         self._add(-1)
         _current.shared = self
@@ -80,7 +82,7 @@ class SharedThreads:
             return True
 
     def help(self, work: Iterator[object]) -> None:
-        """Do the steps of some work in a thread that was taken, unless too many threads work."""
+        """Do the steps of some work in a thread that was taken, until too many threads work."""
         _current.shared = self
         try:
             for _ in work:
@@ -91,7 +93,7 @@ class SharedThreads:
 
     @contextlib.contextmanager
     def lent(self) -> Iterator[None]:
-        """Leave the calling thread's place to helpers while the block runs, in which it waits."""
+        """Free the place of the calling thread while it waits in the block."""
         self._add(1)
         try:
             yield
@@ -104,7 +106,7 @@ class SharedThreads:
 
 
 def shared_threads() -> SharedThreads | None:
-    """Return the threads that the calling thread is one of; None outside of `may_use`."""
+    """Return the threads to which the calling thread belongs; None outside of `may_use`."""
     return getattr(_current, "shared", None)
 
 
@@ -123,11 +125,10 @@ def in_threads(
     function: Callable[[_Item], _Result], items: Iterable[_Item], progress: Progress = SILENT
 ) -> list[_Result]:
     """Return the results of a function for each item, in order, or raise the exception of the first
-    call that failed; a call must not change what another reads.
+    call that failed; a call must not change data that another call reads.
     """
-    # The calls run in the calling thread, which also receives progress, and in threads that are
-    # free. A call may use threads that are free in the same way. After a failure, calls that have
-    # not started are left out.
+    # The calls run in the calling thread, which also reports progress, and in free threads. A call
+    # may use free threads as well. After a failure, no further call starts.
     items = list(items)
     return _Shared(function, items).results(progress)
 
@@ -135,8 +136,8 @@ def in_threads(
 def over_parts(
     function: Callable[[slice], object], count: int, part: int, progress: Progress
 ) -> None:
-    """Call a function for the slices of a range, in threads (see `in_threads`); it must not write
-    where another call writes.
+    """Call a function for the slices of a range, in threads (see `in_threads`); two calls must not
+    write to the same place.
     """
     _Shared(function, parts_of(count, part)).results(progress)
 
@@ -147,9 +148,9 @@ def parts_of(count: int, part: int) -> list[slice]:
 
 
 class _Shared:
-    """A list of calls, which several threads, including the calling one, work off."""
+    """A list of calls that are made in the calling thread and in further threads."""
 
-    # There is no thread pool, since making one for each step would take longer than many steps.
+    # There is no thread pool, since to make one would take longer than many computations.
 
     def __init__(self, function: Callable[[_Item], _Result], items: Sequence[_Item]) -> None:
         self._function, self._items = function, items

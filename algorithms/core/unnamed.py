@@ -11,7 +11,7 @@ from typing import BinaryIO, Iterator
 
 @contextlib.contextmanager
 def unnamed_file(folder: Path) -> Iterator[BinaryIO]:
-    """Yield a temporary file without a name on the disk of a folder, which disappears when the
+    """Yield a temporary file without a name on the disk of a folder, which is removed when the
     block or the process ends.
     """
     with contextlib.ExitStack() as opened:
@@ -27,8 +27,8 @@ def _close(file: BinaryIO) -> None:
 
 
 def reach_disk(file: BinaryIO) -> None:
-    """Hand what was written to the disk, before it is read again; OSError if the disk does not
-    accept it.
+    """Write buffered data to the disk, before they are read again; OSError if the disk does not
+    accept them.
     """
     # A full network disk may report an error only when a file is closed. Until then, reading the
     # file can return wrong data. A local disk reports the error at once, so this costs nothing

@@ -1,9 +1,8 @@
-"""Words of messages: numbers in sentences, and options and tools as their reader knows them."""
+"""Words of messages: numbers of things, and the names of options and tools."""
 
 from __future__ import annotations
 
 import re
-from typing import Any
 
 _NAMED = re.compile(r"`([a-z_]+)(\(\))?`")
 
@@ -16,7 +15,7 @@ def counted(count: int, single: str, several: str = "") -> str:
 
 
 class Keywords:
-    """How messages name options and tools, here as the library does."""
+    """How messages name options and tools: in this class as in the library."""
 
     reproject = (
         "such as by 'pdal translate INPUT OUTPUT reprojection"
@@ -25,12 +24,14 @@ class Keywords:
 
     def tool(self, command: str) -> str:
         """Return a tool, given the name of its command."""
-        if command == "clear-cache":  # it is no function
+        if command == "clear-cache":  # the library has no such function
             return Flags().tool(command)
         return f"bare_earth.{command.replace('-', '_')}()"
 
-    def option(self, name: str, value: Any, command: str) -> str:
-        """Return an option, with a value unless it is None; of any tool if `command` is empty."""
+    def option(self, name: str, value: object, command: str) -> str:
+        """Return an option, with its value if that is not None, and with its tool if `command` is
+        not empty.
+        """
         text = f"{name!r}" if value is None else f"{name}={value!r}"
         return f"{text} of {self.tool(command)}" if command else text
 
@@ -42,7 +43,7 @@ class Flags(Keywords):
         """Return a command."""
         return f"'bare-earth {command}'"
 
-    def option(self, name: str, value: Any, command: str) -> str:
+    def option(self, name: str, value: object, command: str) -> str:
         """Return a flag with its value."""
         text = f"--{name.replace('_', '-')}" + (f" {value}" if value not in (None, True) else "")
         return f"{text} of {self.tool(command)}" if command else text
@@ -53,10 +54,10 @@ _names = Keywords()
 
 
 def use_names(names: Keywords) -> Keywords:
-    """Let messages of this process name options and tools in this way; return how they did."""
+    """Set how messages of this process name options and tools; return the previous setting."""
     global _names
-    before, _names = _names, names
-    return before
+    previous, _names = _names, names
+    return previous
 
 
 def names_in_use() -> Keywords:
@@ -64,9 +65,9 @@ def names_in_use() -> Keywords:
     return _names
 
 
-def option(name: str, value: Any = None, of: str = "") -> str:
-    """Return an option in the words of a terminal, the library or QGIS, with a value if it is not
-    None; `of` names the only command that has it.
+def option(name: str, value: object = None, of: str = "") -> str:
+    """Return an option in the words of a terminal, the library or QGIS, with its value if that is
+    not None; `of` is the command if only one has the option.
     """
     return _names.option(name, value, of)
 
@@ -77,10 +78,10 @@ def tool(command: str) -> str:
 
 
 def in_words(text: str) -> str:
-    """Return a help text whose tools, as `water()`, and options, as `max_edge`, have the names that
-    a terminal, the library or QGIS gives them.
+    """Replace tools (written `water()`) and options (written `max_edge`) in a help text by their
+    names in a terminal, the library or QGIS.
     """
     return _NAMED.sub(
-        lambda found: tool(found[1].replace("_", "-")) if found[2] else option(found[1]),
+        lambda match: tool(match[1].replace("_", "-")) if match[2] else option(match[1]),
         text,
     )

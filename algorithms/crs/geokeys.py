@@ -26,7 +26,7 @@ _VERTICAL_CODE = 4096
 _VERTICAL_CITATION = 4097
 _VERTICAL_DATUM = 4098
 _VERTICAL_UNIT = 4099
-# Where the value of a key is, if not in the key: record of doubles, and of texts.
+# The record that has the value of a key, if the key itself does not: of doubles, or of texts.
 _DOUBLES = 34736
 _TEXTS = 34737
 # Values of the key of the model.
@@ -34,11 +34,11 @@ _PROJECTED = 1
 _GEOGRAPHIC = 2
 _GEOCENTRIC = 3
 _USER_DEFINED = 32767
-# GeoTIFF 1.0 gave the codes of datums to vertical CRS, and others to heights above ellipsoids.
+# In GeoTIFF 1.0, vertical CRS had the codes of datums, and heights above ellipsoids these codes.
 _OLD_DATUMS = range(5101, 5107)
 _OLD_ELLIPSOIDS = range(5001, 5034)
 
-# Metres in one unit, by EPSG code; a ratio if the unit is defined by one.
+# Metres in one unit, by EPSG code; a fraction if the unit is defined as one.
 _UNITS = {
     9001: 1.0,
     9002: 0.3048,
@@ -114,7 +114,7 @@ def read_geokeys(directory: bytes, doubles: bytes = b"", texts: bytes = b"") -> 
 
 
 def _read_keys(directory: bytes, doubles: bytes, texts: bytes) -> dict[int, int | float | str]:
-    """Return the value of each key, without entries that point outside their record."""
+    """Return the values of keys; entries that point outside their record are left out."""
     shorts = struct.unpack(f"<{len(directory) // 2}H", directory[: len(directory) // 2 * 2])
     numbers = struct.unpack(f"<{len(doubles) // 8}d", doubles[: len(doubles) // 8 * 8])
     keys: dict[int, int | float | str] = {}

@@ -1,4 +1,4 @@
-"""Whether two coordinate reference systems are the same."""
+"""Compares coordinate reference systems."""
 
 from __future__ import annotations
 
@@ -8,10 +8,9 @@ from .wkt import VerticalDatum
 
 
 def is_same_crs(first: Crs, second: Crs) -> bool:
-    """Return whether two CRS, their units and what heights are measured from are the same."""
-    # Programs write the same CRS differently, so codes and names are compared, not texts. A CRS
-    # that is not stated differs from all others; a vertical datum that is not stated differs from
-    # none.
+    """Return whether two CRS have the same horizontal CRS, units and vertical datum."""
+    # Programs write the same CRS differently, so codes and names are compared, not texts. A missing
+    # CRS differs from all others; a missing vertical datum does not differ from any other.
     if first == second:
         return True
     if Crs() in (first, second) or not has_same_units(first, second):
@@ -25,7 +24,7 @@ def is_same_crs(first: Crs, second: Crs) -> bool:
 
 def is_other_datum(first: VerticalDatum | None, second: VerticalDatum | None) -> bool | None:
     """Return whether two vertical datums differ, None if that is not certain."""
-    # Programs also use names of their own, or one is not stated.
+    # It is not certain if a datum is missing, or if programs use different names.
     if first is None or second is None:
         return None
     names = {_bare(datum.name) for datum in (first, second)}
@@ -74,7 +73,7 @@ def described(crs: Crs) -> str:
 
 
 def named_with_heights(crs: str, datum: VerticalDatum | None) -> str:
-    """Return the name of a CRS with that of its heights, if it lacks this."""
+    """Return the name of a CRS, followed by that of its vertical CRS if it is not part of it."""
     if datum is None or _bare(datum.crs) in _bare(crs):
         return crs
     return f"{crs} + {datum.crs}" if crs else datum.crs
@@ -85,5 +84,7 @@ def _map_name(crs: Crs) -> str:
 
 
 def _bare(name: str) -> str:
-    """Return only the letters and digits of a name, since programs write the rest differently."""
+    """Return only the letters and digits of a name, since programs write other characters
+    differently.
+    """
     return "".join(filter(str.isalnum, name)).lower()

@@ -1,4 +1,4 @@
-"""Whether lengths can be measured in a CRS at some place, and what to do if not."""
+"""Refuses a CRS in which lengths cannot be measured, and says what to do."""
 
 from __future__ import annotations
 
@@ -17,17 +17,19 @@ _FARTHEST_EAST = 360.0
 _FARTHEST_NORTH = 90.0
 _MERCATOR = re.compile(r"(?:PROJECTION|METHOD)\s*[\[(]\s*\"([^\"]*mercator[^\"]*)\"", re.IGNORECASE)
 _TRUE_ELSEWHERE = ("transverse", "oblique", "hotine", "space")
-# Codes of Web Mercator, for keys without well-known text.
+# Codes of Web Mercator, for GeoTIFF keys without well-known text.
 _WEB_MERCATOR = {3785, 3857, 41001, 54004, 102100, 102113, 900913}
 _PARAMETER = re.compile(r"PARAMETER\s*[\[(]\s*\"([^\"]+)\"\s*,\s*([-+.0-9eE]+)", re.IGNORECASE)
-# Metres. The flattening of the earth changes lengths here by less than 0.4 %.
+# Metres: the radius of the earth. Its flattening changes lengths here by less than 0.4 %.
 _RADIUS = 6378137.0
-# Lengths may be wrong by this share. National CRS are far better.
+# The share by which lengths may be wrong. In national CRS they are far better.
 _MOST_WRONG = 0.05
 
 
 def wrong_lengths(scale: float) -> str:
-    """Return in words how wrong lengths are, given the `length_scale`; empty if they will do."""
+    """Return words that say how wrong lengths are, given the `length_scale`; empty if they are good
+    enough.
+    """
     if abs(scale - 1.0) <= _MOST_WRONG:
         return ""
     wrong = f"{scale:.2f} times too long" if scale > 1.0 else f"too short ({scale:.2f} times)"
@@ -38,7 +40,7 @@ def require_measurable(subject: object, crs: Crs, box: Box | None = None) -> Non
     """Refuse coordinates in which distances cannot be measured, as in degrees or Web Mercator; the
     error names the subject, a file or "The survey".
     """
-    # The box is known as far as a header states it, and may be wrong.
+    # The box is from a header, which may be wrong.
     if crs.is_geographic:
         raise _not_projected(subject, crs, box)
     wrong = wrong_lengths(length_scale(crs, box))
@@ -51,9 +53,9 @@ def require_measurable(subject: object, crs: Crs, box: Box | None = None) -> Non
 
 
 def length_scale(crs: Crs, box: Box | None) -> float:
-    """Return how many metres of a CRS a true metre takes in the middle of a box."""
-    # It is 1 but for Mercator projections, where it grows with the latitude. Other projections of
-    # the world are rare for point clouds.
+    """Return the length of a true metre in metres of a CRS, in the middle of a box."""
+    # It is 1 except for Mercator projections, where it grows with the latitude. Other projections
+    # of the world are rare for point clouds.
     true_scale = _mercator(crs.wkt or "", crs.epsg)
     if true_scale is None or box is None or not all(map(math.isfinite, box)):
         return 1.0
@@ -83,7 +85,7 @@ def _mercator(wkt: str, epsg: int | None) -> tuple[float, float] | None:
 
 
 def _not_projected(subject: object, crs: Crs, box: Box | None) -> BareEarthError:
-    """Return the error for degrees, and for what is wrongly said to be degrees."""
+    """Return the error for degrees, or for coordinates that are wrongly stated to be degrees."""
     if box is not None and not _is_geocentric(crs) and not _can_be_degrees(box):
         return BareEarthError(
             f"{subject} is not in a projected CRS as far as its records or you say ({crs.name}),"

@@ -9,7 +9,7 @@ from typing import Any, Iterator
 
 import numpy as np
 
-# In units of the CRS. No place on earth is farther off, and PROJ may fail with larger numbers.
+# Units of the CRS: no place on earth has larger coordinates, with which PROJ may fail.
 _FARTHEST = 1e9
 LONGITUDE_LATITUDE = "EPSG:4326"
 _CODE = re.compile(r"[A-Za-z]+:[A-Za-z0-9_]+$")
@@ -24,7 +24,7 @@ def wkt_of_text(text: str) -> str | None:
     """Return the WKT 1 of a CRS in any form that the library understands, None if there is no
     library, or it does not understand the text.
     """
-    # GDAL would read the address.
+    # GDAL would read from an address.
     return None if "://" in text else _answer("wkt_of_text", text)
 
 
@@ -70,11 +70,11 @@ def library() -> Any:
 
 
 def _answer(question: str, *arguments: Any) -> Any:
-    """Return what the library answers; None if there is none, or it cannot answer."""
-    known = library()
+    """Return the answer of the library; None if there is no library, or it cannot answer."""
+    installed = library()
     try:
-        return None if known is None else getattr(known, question)(*arguments)
-    except RuntimeError:  # of pyproj, and of GDAL if the application made it raise its errors
+        return None if installed is None else getattr(installed, question)(*arguments)
+    except RuntimeError:  # of pyproj, and of GDAL if the application lets it raise errors
         return None
 
 
@@ -120,7 +120,7 @@ class _Gdal:
         with _quiet():
             for text in (source, target):
                 reference = osr.SpatialReference()
-                # Only codes, since this function reads files and addresses as well.
+                # Only for codes, since this function also reads files and addresses.
                 read = reference.SetFromUserInput if _CODE.match(text) else None
                 if (read or reference.ImportFromWkt)(text):
                     return None

@@ -1,4 +1,4 @@
-"""Decides the CRS and the units of a file from all that its records say."""
+"""Finds the CRS and the units of a file, given all of its records."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _TEXT = "well-known text"
 
 
 class _Statement(NamedTuple):
-    """What one record says: the kind of record, the CRS as well-known text, and its facts."""
+    """The CRS that one record states, as well-known text and as facts, and the kind of record."""
 
     kind: str
     wkt: str | None
@@ -28,10 +28,11 @@ class _Statement(NamedTuple):
 def crs_of_records(
     texts: Sequence[str], keys: GeoKeys | None, prefers_text: bool, progress: Progress
 ) -> Crs | None:
-    """Return the CRS of a file, given all of its records, None if they state none; warn of
-    contradictions, in which text holds if preferred, and of unknown units.
+    """Return the CRS of a file, given all of its records, None if they state none; warn of unknown
+    units and of contradictions, which well-known text decides if it is preferred.
     """
-    # What the preferred record does not state, such as the unit of heights, comes from the others.
+    # Facts that the preferred record does not state, such as the unit of heights, come from the
+    # other records.
     found = [_Statement(_TEXT, text, facts) for text in texts if (facts := read_wkt(text))]
     found[1:] = [statement._replace(kind=f"other {_TEXT}") for statement in found[1:]]
     if keys is not None:
@@ -46,7 +47,7 @@ def crs_of_records(
 
 
 def _joined(used: _Statement, further: _Statement, progress: Progress) -> _Statement:
-    """Return a statement, with what it lacks from another one; tell how they differ."""
+    """Return a statement with its missing facts filled from another one; warn of differences."""
     contradicts_map = _contradicts_map(used.facts, further.facts)
     if contradicts_map or _contradicts_heights(used.facts, further.facts):
         progress.warning(
@@ -96,7 +97,7 @@ def _contradicts_heights(first: WktFacts, second: WktFacts) -> bool:
 
 
 def _shown(statement: _Statement) -> str:
-    """Return what a statement says of name and units, without what would be assumed."""
+    """Return the stated name and units of a statement in words."""
     facts = statement.facts
     words = [named_with_heights(facts.name, facts.datum) or "without a name"]
     if facts.is_geographic:
@@ -108,7 +109,7 @@ def _shown(statement: _Statement) -> str:
 
 
 def _statement_of(keys: GeoKeys, progress: Progress) -> _Statement:
-    """Return what GeoTIFF keys say; their EPSG code gives the name and the well-known text."""
+    """Return the statement of GeoTIFF keys, with name and well-known text of their EPSG code."""
     text = wkt_of_epsg(keys.epsg) if keys.epsg else None
     facts = read_wkt(text) if text else None
     if facts is None:
@@ -130,7 +131,7 @@ def _statement_of(keys: GeoKeys, progress: Progress) -> _Statement:
 
 
 def _horizontal_unit(keys: GeoKeys, facts: WktFacts, progress: Progress) -> float | None:
-    """Return the horizontal unit of the keys, or else of the EPSG code."""
+    """Return the horizontal unit of the keys, or that of the EPSG code if they have none."""
     stated, known = keys.horizontal_unit, facts.horizontal_unit
     if stated and known and not facts.is_geographic and not math.isclose(stated, known):
         progress.warning(

@@ -1,11 +1,10 @@
-"""The CRS that a user states, in place of what files say."""
+"""The CRS that a user states, in place of the CRS in the files."""
 
 from __future__ import annotations
 
 import functools
 import re
 from numbers import Integral
-from typing import Any
 
 from ..core.errors import BareEarthError
 from ..core.words import option
@@ -23,7 +22,7 @@ def how_to_state() -> str:
     return f"with {option('crs')}, such as EPSG:25832"
 
 
-def crs_text(given: Any) -> str | None:
+def crs_text(given: object) -> str | None:
     """Return a CRS as text, given as text, as an EPSG code, or as an object of pyproj."""
     if given is None or isinstance(given, str):
         return given
@@ -36,17 +35,17 @@ def crs_text(given: Any) -> str | None:
 
 def stated_wkt(text: str | None) -> str | None:
     """Return the well-known text of a CRS that a user states, such as "EPSG:2230+6360", or None;
-    refuse what is no CRS of places, or that no library here knows.
+    refuse a text that is not a horizontal CRS, or that no installed library knows.
     """
-    # An EPSG code, with or without a vertical one, well-known text, or another text that pyproj or
-    # GDAL understand, such as PROJ strings.
+    # The text is an EPSG code, with or without a vertical one, well-known text, or another text
+    # that pyproj or GDAL understand, such as a PROJ string.
     text = (text or "").strip()
     return _wkt_of(text, library()) if text else None
 
 
 @functools.lru_cache(maxsize=16)
 def _wkt_of(text: str, library: object) -> str:
-    """Return the well-known text; the result also depends on the library."""
+    """Return the well-known text; the result also depends on the installed library."""
     if read_wkt(text) is not None:
         return text
     code = _CODE.fullmatch(text)

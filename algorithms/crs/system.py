@@ -47,9 +47,7 @@ def unit_symbol(metres: float) -> str:
 
 
 def unit_size(symbol: str) -> float:
-    """Return the metres in a unit, given what `unit_symbol` returned, such as "ft" or "units of 0.5
-    m".
-    """
+    """Return the metres in a unit, given its `unit_symbol`, such as "ft" or "units of 0.5 m"."""
     for metres in _UNIT_NAMES:
         if unit_symbol(metres) == symbol:
             return metres
@@ -57,8 +55,8 @@ def unit_size(symbol: str) -> float:
 
 
 def crs_of_wkt(text: str, progress: Progress = SILENT) -> Crs | None:
-    """Return the CRS that WKT 1 or WKT 2 describes, None if it describes none; say which units are
-    assumed.
+    """Return the CRS that WKT 1 or WKT 2 describes, None if it describes none; report units that
+    are assumed.
     """
     facts = read_wkt(text)
     return None if facts is None else crs_of_facts(text, facts, progress)
@@ -68,8 +66,8 @@ def compound_wkt(crs: Crs) -> str | None:
     """Return the well-known text of a CRS with the unit of its heights, None if it has no text, or
     the text has another horizontal unit.
     """
-    # Text made from GeoTIFF keys describes only the horizontal CRS; a different unit of heights is
-    # added to it.
+    # Text that was made from GeoTIFF keys describes only the horizontal CRS, so a vertical CRS is
+    # added for a different unit of heights.
     facts = read_wkt(crs.wkt) if crs.wkt else None
     if crs.wkt is None or facts is None or crs.is_geographic:
         return crs.wkt
@@ -84,7 +82,7 @@ def compound_wkt(crs: Crs) -> str | None:
 
 
 def _with_heights(crs: Crs, wkt: str) -> str:
-    """Return a text of a horizontal CRS with a vertical one, in the version of the text."""
+    """Return the text of a horizontal CRS with a vertical CRS added, in the same version of WKT."""
     datum = crs.datum or VerticalDatum("heights", "unknown")
     title, place = f"{crs.map_name or crs.name} + {datum.crs}", datum.name or datum.crs
     unit = f'["{unit_name(crs.vertical_unit)}",{crs.vertical_unit!r}]'
@@ -108,7 +106,7 @@ def _id(code: int | None, keyword: str) -> str:
 
 
 def crs_of_facts(text: str | None, facts: WktFacts, progress: Progress = SILENT) -> Crs:
-    """Return the CRS with the properties of a well-known text; say which units are assumed."""
+    """Return the CRS with the properties of a well-known text; report units that are assumed."""
     crs = Crs(
         text, facts.name, 1.0, 1.0, facts.is_geographic, facts.epsg, facts.map_name, facts.datum
     )

@@ -29,17 +29,17 @@ UNITS = {
         US_FOOT,
     ),
 }  # fmt: skip
-# As `unit_symbol` writes those without a name.
+# As `unit_symbol` writes units without a name.
 _SIZE = re.compile(r"units of ([0-9.eE+-]+) m$")
 _AFTER = re.compile(r"[(\[]([^)\]]*)[)\]]|,\s*(.*)$|\bin\s+(.*)$", re.IGNORECASE)
 _LETTERS = re.compile(r"[^\W_]+")
 
 
 def unit_in(text: str) -> float | None:
-    """Return the metres in the unit that a text is or states, as "Elevation [US survey feet]" does;
-    None if it states none, as "DTM of 1 m".
+    """Return the metres in the unit that a text states, such as "Elevation [US survey feet]" or
+    "ft"; None if it states none, such as "DTM of 1 m".
     """
-    # A unit stands alone, in brackets, after a comma or "in", or at the end.
+    # The unit is the whole text, or stands in brackets, after a comma or "in", or at the end.
     text = text.strip()
     size = _SIZE.search(text)
     if size:
@@ -47,7 +47,7 @@ def unit_in(text: str) -> float | None:
         return metres if is_unit(metres) else None
     parts = [_words(part) for match in _AFTER.findall(text) for part in match if part]
     words = _words(text)
-    # After the unit can follow from where heights are measured: "m above sea level".
+    # Words such as "above sea level" can follow the unit.
     starts = ["".join(part[:count]) for part in parts for count in (3, 2, 1)]
     ends = [
         "".join(words[-count:])
@@ -58,5 +58,5 @@ def unit_in(text: str) -> float | None:
 
 
 def _words(text: str) -> list[str]:
-    """Return the words of a text in small letters; "U.S." is one."""
+    """Return the words of a text in lower case; "U.S." is one word."""
     return [word.lower() for word in _LETTERS.findall(text.replace(".S.", "S"))]

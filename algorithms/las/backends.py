@@ -31,7 +31,7 @@ def missing_packages(packages: Iterable[str] = READING) -> list[str]:
 
 
 def require(*packages: str) -> None:
-    """Raise an error that tells how to install `packages` here if one is missing."""
+    """Raise an error that says how to install `packages` if one of them is missing."""
     missing = missing_packages(packages)
     if missing:
         purpose = _PURPOSES.get(missing[0], "this")
@@ -44,8 +44,8 @@ def require(*packages: str) -> None:
 
 def install_hint(packages: Iterable[str]) -> str:
     """Return a sentence that tells how to install `packages` for this Python."""
-    # Inside QGIS, the plugin installs lazrs and contains laspy. numpy and scipy belong to QGIS, and
-    # come from its own source.
+    # Inside QGIS, the plugin installs lazrs and contains laspy. numpy and scipy are part of QGIS,
+    # and are installed as QGIS was.
     missing = list(packages)
     if not _inside_qgis():
         command = f"{_quoted(sys.executable)} -m pip install {' '.join(missing)}"

@@ -13,7 +13,7 @@ from .records import LazRecordWriter
 
 
 class ChunkFile:
-    """The chunks of a file that is written, from its position on; chunks may have any size."""
+    """Writes chunks of any size into a file, from the position of the file on."""
 
     def __init__(self, file: BinaryIO, laszip: bytes) -> None:
         self._file, self._laszip, self._start = file, laszip, file.tell()
@@ -21,14 +21,14 @@ class ChunkFile:
         file.write(struct.pack("<q", -1))
 
     def add(self, data: bytes | memoryview, count: int) -> tuple[int, int]:
-        """Append a chunk of so many points; return its position and size."""
+        """Append a chunk with a number of points; return its position and size."""
         start = self._file.tell()
         self._file.write(data)
         self._table.append((count, len(data)))
         return start, len(data)
 
     def finish(self) -> None:
-        """Write the table of the chunks, behind them; leave the file at its end."""
+        """Write the table of the chunks behind them; the file is then at its end."""
         import lazrs
 
         end = self._file.tell()

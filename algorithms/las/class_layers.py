@@ -32,7 +32,7 @@ _FORMAT = 6  # the shortest with such layers
 _RETURNS = 14
 _CHANNEL = 15
 _CLASS = 16
-# Numbers of returns that stand for single returns and for all others: as small as possible.
+# Numbers of returns that are used for single returns and for all others, as small as possible.
 _ONLY = 0x11
 _FIRST_OF_TWO = 0x21
 # Points whose layers are compressed at a time.
@@ -127,8 +127,8 @@ class ClassLayers:
 def _returns(
     layout: LasFile, groups: Iterable[Sequence[Chunk]], cloud: PointCloud | None
 ) -> Iterator[tuple[np.ndarray, np.ndarray, np.ndarray]]:
-    """Yield for each group of chunks what decides how classes are coded: return number, number of
-    returns and scanner channel, each uint8 (k,).
+    """Yield for each group of chunks the values that decide how classes are coded: return number,
+    number of returns and scanner channel, uint8 (k,) each.
     """
     pieces = [slice(group[0].start, group[-1].end) for group in groups]
     has_them = cloud is not None and cloud.count == layout.count and not cloud.from_zero

@@ -20,11 +20,11 @@ from .lasfile import LasFile
 _POINTS_A_PART = 1 << 15
 # Points of the parts of a cloud.
 _PART = 1 << 19
-# Points that are read in one go, at most, for each point that is wanted.
+# Most points that are copied together for each point that is wanted.
 _LOOSE = 4
 # Units of the CRS: the origin of the frame of a cloud is a multiple of this.
 _ORIGINS = 10_000.0
-# Offsets may differ from a multiple of the scale by this share of it, due to rounding.
+# The share of the scale by which rounded offsets may differ from one of its multiples.
 _WHOLE = 0.01
 
 
@@ -59,7 +59,7 @@ class PointCloud:
     number: np.ndarray | None = None  # int64 (n,), places in the file from 0 on, if asked for
     records: np.ndarray | None = None  # uint8 (n, record length), if they were kept for writing
     file: LasFile | None = None
-    from_zero: bool = False  # whether returns of the file begin at 0; all are one higher here
+    from_zero: bool = False  # whether returns begin at 0 in the file; here they are one higher
 
     @property
     def count(self) -> int:
@@ -68,7 +68,7 @@ class PointCloud:
 
     @property
     def columns(self) -> dict[str, np.ndarray]:
-        """The arrays of one value for each point, by their names."""
+        """The arrays with one value for each point, by name."""
         return {
             name: value
             for name, value in vars(self).items()
@@ -109,8 +109,8 @@ class PointCloud:
             x, y = (np.ascontiguousarray(axis[part]) for axis in (self.x, self.y))
             return [(int(x.min()), int(y.min())), (int(x.max()), int(y.max()))]
 
-        found = np.array(in_threads(extremes, parts_of(self.count, _POINTS_A_PART)))
-        lowest, highest = found[:, 0].min(axis=0), found[:, 1].max(axis=0)
+        of_parts = np.array(in_threads(extremes, parts_of(self.count, _POINTS_A_PART)))
+        lowest, highest = of_parts[:, 0].min(axis=0), of_parts[:, 1].max(axis=0)
         return tuple(lowest.tolist()), tuple(highest.tolist())
 
     @property
@@ -124,10 +124,10 @@ class PointCloud:
         return replace(survey_frame(self.crs), origin=(x, y))
 
     def points(self, selected: np.ndarray | slice, frame: Frame | None = None) -> Points:
-        """Return the points of a mask or indices in metres from the origin of a frame, that of the
-        survey, by default `frame`; refuse a CRS that is not projected.
+        """Return the points of a mask or indices in metres from the origin of a frame, by default
+        that of the cloud; refuse a CRS that is not projected.
         """
-        # Files with equal scales give equal numbers for equal places, whatever their offsets.
+        # If files have equal scales, equal places become equal numbers, whatever the offsets.
         return Points(*self._metres(selected, frame, 3))
 
     def places(
@@ -202,8 +202,8 @@ def joined(parts: Sequence[PointCloud]) -> PointCloud:
 
 
 def survey_frame(crs: Crs, origin: tuple[float, float] = (0.0, 0.0)) -> Frame:
-    """Return the frame of a survey and its blocks, with its origin at (0, 0) of the CRS, or where
-    the cells of a raster begin, in units of the CRS.
+    """Return the frame of a survey and its blocks, with an origin in units of the CRS, such as a
+    corner of the cells of a raster.
     """
     return Frame(origin, crs.horizontal_unit, crs.vertical_unit, crs.wkt)
 
@@ -212,7 +212,7 @@ class _Axis(NamedTuple):
     """Converts integers to metres."""
 
     # If the offset is a multiple of the scale, it is added to the integers. So no digits are lost,
-    # and equal places give equal numbers, whatever the offset.
+    # and equal places become equal numbers, whatever the offset.
 
     whole: float  # added to the integers
     scale: float  # metres in one unit of the integers
@@ -244,7 +244,7 @@ def _picked(columns: Sequence[np.ndarray], indices: np.ndarray | slice) -> list[
     """Return the values of columns at some indices."""
     if isinstance(indices, np.ndarray):
         first, last = int(indices.min()), int(indices.max())
-        # If indices are ordered and close together, all values between are read in one go.
+        # If indices are close together, all values between them are copied first.
         if last - first < _LOOSE * len(indices):
             near, places = slice(first, last + 1), (indices - first).astype(np.intp)
             return [np.ascontiguousarray(column[near]).take(places) for column in columns]

@@ -61,11 +61,11 @@ def write_copc(
     progress: Progress = SILENT,
     memory: int | None = None,
 ) -> None:
-    """Write a file with its changes as COPC, with about so many bytes of memory, by default all
-    points; the caller removes a file that is incomplete after an error or a cancel.
+    """Write a file with its changes as COPC, with about `memory` bytes, by default with all points
+    in memory; after an error or a cancel, the caller removes the incomplete file.
     """
     # The order of the points changes. Scale, offset, integers, extra bytes and records stay, except
-    # for the changes. Points for which there is no memory wait in a temporary file beside the
+    # for the changes. Points that do not fit into memory wait in a temporary file beside the
     # target; the output does not depend on that.
     layout = rewriting.target
     point_format = NEW_FORMATS[layout.point_format]

@@ -95,8 +95,8 @@ def record_length(layout: LasFile) -> int:
 
 
 def convert(layout: LasFile, old: np.ndarray, classes: np.ndarray, new: np.ndarray) -> None:
-    """Convert records with new classes to a point format of COPC, in `new`, which holds zeros,
-    uint8 (n, new record length).
+    """Convert records with new classes to a point format of COPC, and write them into `new`, an
+    array of zeros, uint8 (n, new record length).
     """
     length = RECORD_LENGTHS[NEW_FORMATS[layout.point_format]]
     if layout.point_format >= FIRST_EXTENDED_FORMAT:
@@ -165,8 +165,8 @@ def _is_kept(record: Vlr | Evlr) -> bool:
 
 def _wkt(layout: LasFile, progress: Progress) -> Vlr | None:
     """Return the record of the CRS as well-known text, which COPC requires."""
-    # As in LAS and LAZ, the file states what it stated before. If that is nothing, it states what
-    # the user stated, since COPC requires a CRS and its header is new in any case.
+    # As in LAS and LAZ, the file states the same CRS as before. If it stated none, it states that of
+    # the user, since COPC requires a CRS and its header is new in any case.
     of_file = read_crs(dataclasses.replace(layout, stated=None))
     text = compound_wkt(of_file)
     if text is None and of_file.epsg is None and layout.vlr(*GEOKEY_RECORDS) is None:

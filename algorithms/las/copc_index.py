@@ -41,8 +41,8 @@ class CopcIndex:
         return known.issuperset(zip(*columns))
 
     def write(self, file: BinaryIO, moved: Mapping[int, tuple[int, int]], shift: int) -> None:
-        """Write the index into a file whose chunks have moved, given the new position and size of
-        each by its old position, and the records behind them by `shift` bytes.
+        """Write the index into a file whose chunks have moved, given their new positions and sizes
+        by their old positions; the records behind them have moved by `shift` bytes.
         """
         for start, entries in self._pages.items():
             entries = entries.copy()

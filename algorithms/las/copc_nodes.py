@@ -33,8 +33,8 @@ if TYPE_CHECKING:
 
 # Points decompressed at once.
 _BATCH = 1_000_000
-# Steps of the scale by which a point may lie outside its cube, since writers round coordinates
-# after they have sorted the points into nodes.
+# Steps of the scale by which a point may lie outside its cube: writers round coordinates after
+# they have sorted the points into nodes.
 _ROUNDING_STEPS = 2
 _DEEPEST = 30
 
@@ -98,10 +98,10 @@ def find_nodes(
     get_ready: Callable[[list[tuple[int, int]]], object] = lambda pages: None,
 ) -> np.ndarray:
     """Return the nodes of the uppermost levels whose cubes touch a box in the CRS, HIERARCHY_ENTRY
-    (n,) in file order; `OctreeError` if the hierarchy is damaged.
+    (n,) in file order; raise `OctreeError` if the hierarchy is damaged.
     """
-    # Only pages whose branch touches the box are read, of a file that may be open; `get_ready` is
-    # told where they begin and end before.
+    # Only pages whose branches touch the box are read, from a file that may be open; before that,
+    # `get_ready` is called with the start and the end of the pages.
     layout = hierarchy.layout
     found, total, is_whole = [], 0, True
 
@@ -137,8 +137,8 @@ def read_pages(hierarchy: Hierarchy) -> dict[int, np.ndarray]:
 def read_nodes(
     hierarchy: Hierarchy, nodes: np.ndarray, is_whole: bool = False, times: bool = False
 ) -> Iterator[laspy.PackedPointRecord]:
-    """Yield the points of nodes, about a million at once, with what a `PointCloud` needs, or whole;
-    the GPS times are undefined unless wanted.
+    """Yield the points of nodes, about a million at once, with the layers that a `PointCloud`
+    needs, or with all; GPS times are undefined unless wanted.
     """
     # If points lie outside the cubes of their nodes (an OctreeError), others may be missing.
     import lazrs
@@ -156,8 +156,8 @@ def read_nodes(
 def read_compressed(
     hierarchy: Hierarchy, nodes: np.ndarray, file: BinaryIO
 ) -> Iterator[tuple[np.ndarray, bytearray, np.ndarray]]:
-    """Yield some nodes at a time, their bytes in an open file one after the other, and their whole
-    records; raise as `read_nodes`.
+    """Yield batches of nodes of an open file, with their compressed bytes one after the other, and
+    their whole records; raise the errors of `read_nodes`.
     """
     import lazrs
 
@@ -245,7 +245,7 @@ def _decompress(
     compressed: bytearray,
     nodes: np.ndarray,
     selection: lazrs.DecompressionSelection,
-    has_times: bool = True,  # whether GPS times are among what is decompressed
+    has_times: bool = True,  # whether GPS times are decompressed
 ) -> np.ndarray:
     """Return the records of nodes, uint8 (n, record length), after checks of each chunk."""
     import lazrs

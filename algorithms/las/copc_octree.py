@@ -22,9 +22,9 @@ from .records import column
 
 # The grid of a node has 2 to the power of this cells along each side.
 _GRID_BITS = 7
-# Most points that one node takes together with all that would be below it.
+# Most points that a node takes together with all points that would be below it.
 _LEAF_POINTS = 100_000
-# Fewer points get no node of their own, but stay with the node above.
+# If fewer points are left for a node, they stay with the node above.
 _SMALL_NODE = 500
 # The cube has 2 to the power of this cells along each side: the bits of all three fit into 64.
 _CUBE_BITS = 21
@@ -97,7 +97,7 @@ class BranchPoints(Protocol):
 
     branch: Branch
     # int64 (depths + 1, cells): points that each depth takes in each branch below, if no node above
-    # ends the branch; the last row counts those that are left.
+    # ends the branch; the last row counts the points that no depth takes.
     counts: np.ndarray
 
     def records(self, groups: np.ndarray) -> np.ndarray:
@@ -110,8 +110,8 @@ class BranchPoints(Protocol):
 def nodes_of(
     points: BranchPoints, depth: int = 0, cell: int = 0
 ) -> Iterator[tuple[Branch, np.ndarray]]:
-    """Yield the nodes of a branch with their points, each before the nodes below it, from one of
-    its cells downwards.
+    """Yield the nodes of a branch with their points, from one of its cells downwards; a node comes
+    before the nodes below it.
     """
     branch = points.branch
     width = 3 * (branch.depths - depth)
@@ -133,8 +133,8 @@ def nodes_of(
 
 
 class SortedPoints:
-    """The points of a branch in memory, sorted by the depths that take them and the
-    branches below.
+    """The points of a branch in memory, sorted by the depths that take them, and by the branches
+    below.
     """
 
     def __init__(
@@ -214,8 +214,8 @@ def _depths(
     taken_cells: Sequence[TakenCells],
     progress: Progress,
 ) -> np.ndarray:
-    """Return the depth below the branch that takes each point, if no node above ends the branch,
-    uint16 (n,); the number of depths for points that are left.
+    """Return for each point the depth below the branch that takes it if no node above ends the
+    branch, uint16 (n,); the number of depths if no depth takes the point.
     """
     depths = np.full(len(codes), branch.depths, dtype=np.uint16)
     left = np.arange(len(codes), dtype=order.dtype)

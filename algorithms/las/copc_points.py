@@ -37,13 +37,13 @@ class Steady(Progress):
         self._whole(start)
 
     def report(self, fraction: float) -> None:
-        """Report again, so that a cancel is noticed."""
+        """Report the same progress again, which raises `Cancelled` after a cancel."""
         self._whole(self._start + fraction * (self._end - self._start))
 
 
 class Room:
-    """The most points that may be in memory, and an unnamed temporary file in a folder for the
-    others, gone when the block or the process ends.
+    """The largest number of points that may be in memory, and a temporary file for other points,
+    which is removed when the block or the process ends.
     """
 
     cube: Cube  # of the octree, once it is known
@@ -65,14 +65,14 @@ class Room:
         return self._files.enter_context(unnamed_file(self._folder))
 
     def clear(self, cube: Cube) -> None:
-        """Discard all points, since those that follow are for another cube."""
+        """Discard all points, since the next points are for another cube."""
         self.file.truncate(0)
         self.cube = cube
 
 
 class WaitingPoints:
-    """The points of a branch in a temporary file, given in file order part by part, as records,
-    uint8 (k, record length).
+    """The points of a branch in a temporary file, to which records, uint8 (k, record length), are
+    added part by part in file order.
     """
 
     def __init__(self, branch: Branch, parts: Iterable[np.ndarray], room: Room) -> None:

@@ -1,4 +1,4 @@
-"""A few points from everywhere in a COPC file."""
+"""A few points from all parts of a COPC file."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ import numpy as np
 
 
 def sample_of(path: Path, dimension: str) -> np.ndarray:
-    """Return a dimension, named as in laspy, of the points in the uppermost node of a COPC file
-    that this package wrote, which is not checked.
+    """Return a dimension, named as in laspy, of the points in the uppermost node of a COPC file,
+    which must be written by this package, since it is not checked.
     """
     import laspy
 

@@ -18,10 +18,10 @@ from .lasfile import FIRST_EXTENDED_FORMAT, LasFile, text_of
 WKT_RECORD = ("LASF_Projection", 2112)
 # Records with the directory of GeoTIFF keys, their numbers and their texts.
 GEOKEY_RECORDS = tuple(("LASF_Projection", number) for number in (34735, 34736, 34737))
-# Where programs write well-known text and PROJJSON beside the records of the LAS specification.
+# Records with well-known text and PROJJSON that are not in the LAS specification.
 _OTHER_WKT = (("LASF_Projection", 4224), ("PDAL", 4224), ("liblas", 2112))
 _PROJJSON = (("LASF_Projection", 4225), ("PDAL", 4225))
-# All of them: none may stay in a file whose CRS is another one.
+# All records with a CRS: none may stay in a file whose CRS changes.
 CRS_RECORDS = (WKT_RECORD, *GEOKEY_RECORDS, *_OTHER_WKT, *_PROJJSON)
 _LONGEST_PROJJSON = 100_000
 _WKT_BIT = 0x10
@@ -40,8 +40,8 @@ class Record(Protocol):
 
 
 def read_crs(file: LasFile, progress: Progress = SILENT) -> Crs:
-    """Return the CRS of a file: that of its records, or the one that the user states instead, which
-    is told if it differs, as are assumed units.
+    """Return the CRS of a file: that of its records, or the one that the user states instead;
+    report differences between both, and assumed units.
     """
     prefers_text = bool(file.global_encoding & _WKT_BIT)
     prefers_text |= file.point_format >= FIRST_EXTENDED_FORMAT
@@ -52,12 +52,12 @@ def read_crs(file: LasFile, progress: Progress = SILENT) -> Crs:
 def crs_among(
     every: Sequence[Record], prefers_text: bool, stated: str | None, name: str, progress: Progress
 ) -> Crs:
-    """Return the CRS of all records of a file with a name, as `read_crs` does; `stated` is the WKT
-    of the one that the user states.
+    """Return the CRS of a file, given its name, all of its records, and the WKT of the CRS that the
+    user states; see `read_crs`.
     """
-    # A file can have well-known text and GeoTIFF keys. Point formats 6 to 10 need text; of others,
-    # the global encoding of the header says which one is valid. What that lacks comes from the
-    # other.
+    # A file can have both well-known text and GeoTIFF keys. Point formats 6 to 10 need text; for
+    # others, the global encoding in the header says which one is valid. Facts that it lacks come
+    # from the other one.
     texts = _data_of(every, (WKT_RECORD,)), _data_of(every, _OTHER_WKT), _data_of(every, _PROJJSON)
     records = (next((one for one in every if one.key == key), None) for key in GEOKEY_RECORDS)
     keys = tuple(record.data or b"" if record else b"" for record in records)
@@ -123,7 +123,7 @@ def _wkt_of_projjson(text: str) -> str | None:
     if len(text) > _LONGEST_PROJJSON or not text.startswith("{"):
         return None
     try:
-        # Without the address of the schema, which nobody needs.
+        # The address of the schema is left out, since it is not needed.
         return wkt_of_text(json.dumps({**json.loads(text), "$schema": ""}))
     except (ValueError, RecursionError):
         return None

@@ -17,7 +17,7 @@ from .records import MOST_KEPT, check_class, column, named, read_records
 
 @dataclass(frozen=True)
 class Edits:
-    """New values of points, of shape (n,) in file order; None for what does not change."""
+    """New values of points, of shape (n,) in file order; None for values that do not change."""
 
     classification: np.ndarray | None = None  # uint8
     # int8; 1 sets the flag for model key points, 0 clears it, -1 leaves it.
@@ -40,8 +40,8 @@ class Edits:
 
 
 class EditedFile:
-    """A file (`source`) with its changes, and the same with header and records of the output
-    (`target`); records that were kept are changed in place.
+    """A file (`source`) with its changes, and with header and records of the output (`target`);
+    records in memory are changed in place.
     """
 
     def __init__(self, source: LasFile, changes: Edits, records: np.ndarray | None = None) -> None:
@@ -78,8 +78,8 @@ class EditedFile:
         return given[0] if len(given) == 1 and given[0] is self._changes.classification else None
 
     def points(self) -> Iterator[tuple[np.ndarray, np.ndarray, float]]:
-        """Yield part by part the records to write, whose memory the next can reuse, their new
-        classes, and the share of the source read so far.
+        """Yield part by part the records to write, their new classes, and the share of the source
+        that was read; parts can use the same memory.
         """
         start = 0
         for old in self._sources():

@@ -22,7 +22,8 @@ _SIZES = (0, 1, 1, 2, 2, 4, 4, 8, 8, 4, 8)
 _KINDS = {9: "<f4", 10: "<f8"}
 _BYTE = 1
 _FLOAT = 9
-# One byte with the class that a run gave. Where the class differs, it was changed by hand since.
+# A dimension of one byte: the class that a run gave. If the present class differs, it was changed
+# by hand after the run.
 REMEMBERED = "BareEarthClass"
 # Bits of the options of a descriptor.
 _HAS_MINIMUM = 0x02
@@ -31,7 +32,7 @@ _HAS_SCALE = 0x08
 _HAS_OFFSET = 0x10
 _LARGEST_RECORD = 65535
 _UNDOCUMENTED = "undocumented"
-_MOST_UNDOCUMENTED = 255  # bytes that one descriptor can tell of
+_MOST_UNDOCUMENTED = 255  # bytes that one descriptor can describe
 
 
 @dataclass(frozen=True)
@@ -52,8 +53,8 @@ class Place:
 
 
 def place_dimension(layout: LasFile, dimension: ExtraDimension) -> tuple[LasFile, Place]:
-    """Return a file with longer records, unless it has a dimension of that name, and with its
-    description, and where its values go; refuse an unsuitable type.
+    """Return a file with a dimension, which is added if no dimension has that name, and its place
+    in a record; refuse an unsuitable type.
     """
     descriptors = _descriptors(layout)
     if descriptors is None:
@@ -68,7 +69,7 @@ def place_dimension(layout: LasFile, dimension: ExtraDimension) -> tuple[LasFile
             descriptors[number] = _descriptor(dimension, descriptor[2])
             return _with_record(layout, descriptors), Place(start, kind)
         start += _size(descriptor)
-    # What no descriptor speaks of comes before the new dimension, so it needs one now.
+    # Bytes without a descriptor come before the new dimension, so they need one now.
     while start < layout.record_length:
         size = min(layout.record_length - start, _MOST_UNDOCUMENTED)
         descriptors.append(struct.pack("<2xBB32s156x", 0, size, _UNDOCUMENTED.encode()))
@@ -101,7 +102,7 @@ def extra_dimensions(layout: LasFile) -> list[tuple[str, str, int]]:
 
 
 def dimension_names(layout: LasFile) -> list[str]:
-    """Return the names of the dimensions in extra bytes, also of undescribed ones."""
+    """Return the names of the dimensions in extra bytes, including bytes without a descriptor."""
     descriptors = _descriptors(layout) or []
     names = [text_of(described[4:36]) for described in descriptors if _size(described)]
     is_all = sum(map(_size, descriptors)) == layout.extra_bytes
@@ -109,8 +110,8 @@ def dimension_names(layout: LasFile) -> list[str]:
 
 
 def runs_of_bytes(layout: LasFile) -> list[tuple[str, int]]:
-    """Return the extra bytes of a point as runs, each with its name and size, with the dimension
-    `REMEMBERED` as a separate one.
+    """Return the extra bytes of a point as runs with names and sizes; the dimension `REMEMBERED` is
+    a run of its own.
     """
     count, start = layout.extra_bytes, 0
     for described in (_descriptors(layout) or ()) if count else ():

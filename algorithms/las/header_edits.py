@@ -50,8 +50,8 @@ def with_count(layout: LasFile, count: int) -> LasFile:
 def with_statistics(
     layout: LasFile, lowest: Sequence[int], highest: Sequence[int], returns: Sequence[int]
 ) -> LasFile:
-    """Return the layout with another extent (x, y and z as integers), and other numbers of first,
-    second, ... returns, fifteen of them.
+    """Return the layout with another extent (x, y and z as integers), and other numbers of points
+    by return number, from 1 to 15.
     """
     extent = [
         end[axis] * layout.scale[axis] + layout.offset[axis]
@@ -66,6 +66,6 @@ def with_statistics(
 
 
 def _legacy(layout: LasFile, counts: Sequence[int]) -> list[int]:
-    """Return counts for the fields before LAS 1.4, 0 where these do not hold them."""
+    """Return counts for the fields before LAS 1.4, or 0 for counts that do not fit into them."""
     has_legacy = layout.minor_version < 4 or layout.point_format <= _LAST_LEGACY_FORMAT
     return [count if has_legacy and count < 1 << 32 else 0 for count in counts]

@@ -1,7 +1,7 @@
 """An opened LAS, LAZ or COPC file: everything but its points.
 
-laspy reads this as well, but drops what it does not know when it writes a header. Here every byte
-of header and records is kept.
+laspy reads headers and records as well, but when it writes them it drops unknown data. Here
+every byte of header and records is kept.
 """
 
 from __future__ import annotations
@@ -33,13 +33,14 @@ RECORD_LENGTHS = (20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67)
 # From this point format on, points can have more classes and returns.
 FIRST_EXTENDED_FORMAT = 6
 _WITHOUT_TIMES = (0, 2)
-# The integers of points have 32 bits. A few more are allowed, since extents are rounded.
+# The integers of points have 32 bits. Slightly larger numbers are allowed, since extents are
+# rounded.
 _MOST_STEPS = (1 << 31) + 16
 
 
 @dataclass(frozen=True)
 class Vlr:
-    """A variable length record; `raw` are all its bytes, header included."""
+    """A variable length record; `raw` are all its bytes, including the header."""
 
     raw: bytes
 
@@ -74,11 +75,11 @@ class Evlr:
 class Unpacked(NamedTuple):
     """The uncompressed records of a file, as `unpack` writes them."""
 
-    file: Path | BinaryIO  # one that is open stays so
+    file: Path | BinaryIO  # an open file is not closed
     columns: tuple[str, ...] | None = None  # as for `read_records`; None for all
 
     def has(self, columns: Sequence[str] | None) -> bool:
-        """Return whether some layers are here; None stands for all."""
+        """Return whether the file has some layers, or all if they are None."""
         if self.columns is None:
             return True
         return columns is not None and set(columns) <= set(self.columns)
@@ -97,7 +98,7 @@ class LasFile:
     waveform_record: int  # position of waveform packets in this file; 0 for none
     state: FileState  # when it was opened, to notice later changes
     stated: str | None = None  # the CRS that the user states in place of its records
-    # Where its records are uncompressed, too.
+    # A file with the same records uncompressed.
     unpacked: Unpacked | None = field(default=None, compare=False)
 
     @property
@@ -158,7 +159,7 @@ class LasFile:
 
     @property
     def offset(self) -> tuple[float, float, float]:
-        """Values that are then added."""
+        """Values that are added to the scaled integers of x, y and z."""
         return fields.OFFSET.get(self.header)
 
     @property
@@ -189,8 +190,8 @@ class LasFile:
 
     @property
     def states_extent(self) -> bool:
-        """Whether integers of points can have the extent in the header, of which heights only have
-        to be finite.
+        """Whether the integers of points can reach the x and y of the extent in the header, and its
+        heights are finite.
         """
         corners = self.minimum, self.maximum
         return all(math.isfinite(corner[2]) for corner in corners) and all(
@@ -211,7 +212,7 @@ class LasFile:
 
     @cached_property
     def tail_start(self) -> int:
-        """Position of the first byte after the points that is to be kept."""
+        """Position of the first byte after the points that outputs keep."""
         # In LAS, it is the end of the points. In LAZ, it is the first EVLR or waveform packet,
         # since the length of the chunk table before them is not known.
         if not self.is_compressed:
@@ -297,7 +298,7 @@ class LasFile:
         """Return the pointer to write at each position in the header, after the ranges of
         `kept_tail` were moved to a new start.
         """
-        # Without stale ones, which some writers leave.
+        # Stale pointers, which some writers leave, are left out.
         known = [fields.WAVEFORM_START, fields.EVLR_START][: max(self.minor_version - 2, 0)]
         found = {field.start: field.get(self.header) for field in known}
         return {

@@ -65,7 +65,7 @@ class Compression(NamedTuple):
 
     @property
     def is_known(self) -> bool:
-        """Whether the kind of compression is one of these two."""
+        """Whether the kind of compression is known here."""
         return self.kind == _CHUNKED or self.layers > 0
 
     @property
@@ -86,7 +86,7 @@ class Compression(NamedTuple):
         return sum(size for _, size, _ in self.items)
 
     def is_of(self, point_format: int) -> bool:
-        """Return whether these are the parts of points of a format."""
+        """Return whether the parts are those of points of a format."""
         # The decompressor takes the length of a part from its type, not from the record.
         parts = self.items
         if parts[-1][0] in (_EXTRA_BYTES, _EXTRA_BYTES_14):

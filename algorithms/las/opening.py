@@ -24,20 +24,20 @@ from .laszip import Compression
 from .sources import FileState, damaged, open_source
 
 _MOST_EVLRS = 1_000_000
-# Records behind the points that are kept in memory, and most bytes of one; a survey can have
-# thousands of files.
+# User ids of the records behind the points that are kept in memory.
 _KEPT = ("LASF_Projection", "LASF_Spec")
+# Most bytes of a record that is kept: a survey can have thousands of files.
 _LARGEST_KEPT = 1 << 20
-# Bytes of compression, or between records, that files without points may have there.
+# Most bytes that a file without points may have between its records, such as those of compression.
 _MOST_WITHOUT_POINTS = 256
-# Units of the CRS: with other scales and offsets calculations make no sense.
+# Units of the CRS: limits of scales and offsets with which calculations make sense.
 _SMALLEST_SCALE = 1e-12
 _LARGEST_SCALE = 1e6
 _LARGEST_OFFSET = 1e12
 
 
 class NoPoints(BareEarthError):
-    """Files hold no points, but are sound: a run on points writes them as they are."""
+    """Files are valid, but hold no points; a run that writes points copies them unchanged."""
 
     def __init__(self, text: str, layouts: tuple[LasFile, ...] = ()) -> None:
         super().__init__(text)
@@ -45,8 +45,8 @@ class NoPoints(BareEarthError):
 
 
 def open_las(path: Path | LasFile, stated: str | None = None) -> LasFile:
-    """Open a file (an opened one is returned) with the CRS that a user states, if any, and read all
-    but its points; refuse what is not LAS or LAZ or truncated, and by `NoPoints` what is empty.
+    """Open a file, or return an opened one, and read everything but its points; `stated` is a CRS
+    of the user. Refuse a file that is not LAS or LAZ, or damaged, or, by `NoPoints`, empty.
     """
     if isinstance(path, LasFile):
         return path
@@ -56,7 +56,7 @@ def open_las(path: Path | LasFile, stated: str | None = None) -> LasFile:
 
 
 def read_layout(path: Path, file: BinaryIO, state: FileState, stated: str | None = None) -> LasFile:
-    """Read all but the points of an open file, as `open_las`; messages name the path."""
+    """Read everything but the points of an open file, as `open_las`; messages name the path."""
     size = state.size
     header = _read_header(path, file, size)
     points_start, vlr_count = fields.POINTS_START.get(header), fields.VLR_COUNT.get(header)

@@ -45,15 +45,15 @@ COLUMNS: dict[str, tuple[str, type]] = {
 def read_cloud(
     path: Path | LasFile, progress: Progress = SILENT, keep_records: bool = False
 ) -> PointCloud:
-    """Read all points of a LAS, LAZ or COPC file in file order, and keep the records if the file is
-    not to be read again for writing.
+    """Read all points of a LAS, LAZ or COPC file in file order; if the records are kept, the file
+    need not be read again for writing.
     """
     layout = open_las(path)
     require_packages(layout)
     crs, start = read_crs(layout, progress), 0
     if keep_records:
         records = np.empty((layout.count, layout.record_length), dtype=np.uint8)
-        # x, y and z stay among the records: a copy would take half as much memory again.
+        # x, y and z are views of the records: copies would take half as much memory again.
         points = named(layout, records)
         coordinates = {name: points[source] for name, source in _COORDINATES.items()}
         cloud = _empty_cloud(layout, layout.count, crs, records=records, **coordinates)
@@ -71,8 +71,8 @@ def read_cloud(
 def read_parts(
     path: Path | LasFile, progress: Progress = SILENT, strips: bool = False, times: bool = False
 ) -> Iterator[PointCloud]:
-    """Yield the points of a file in file order, in parts that are always the same; strips come with
-    the flag of synthetic points.
+    """Yield the points of a file in file order, in the same parts each time; with strips, the flag
+    of synthetic points is read as well.
     """
     layout = open_las(path)
     require_packages(layout)
@@ -110,7 +110,7 @@ class Description:
     is_geographic: bool
     horizontal_unit: float
     vertical_unit: float
-    length_scale: float  # metres of the CRS in a true metre; not 1 for Web Mercator and its kin
+    length_scale: float  # metres of the CRS in a true metre; not 1 for Mercator projections
     classes: dict[int, int]  # number of points by class
     returns: dict[int, int]  # number of points by return number
     withheld: int
@@ -207,8 +207,8 @@ def require_packages(layout: LasFile) -> None:
 def read_chunks(
     layout: LasFile, times: bool = False, strips: bool = False
 ) -> Iterator[laspy.PackedPointRecord]:
-    """Yield all points in parts, which are always the same and share their memory; GPS times and
-    point source ids are undefined in point formats 6 to 10 unless wanted.
+    """Yield all points in the same parts each time, which use the same memory; GPS times and point
+    source ids are undefined in point formats 6 to 10 unless wanted.
     """
     pieces, columns = parts_of(layout.count, _CHUNK), needed(layout, times, strips)
     for records in read_records(layout, _CHUNK, columns=columns, pieces=pieces):
@@ -239,7 +239,7 @@ def cloud_of(layout: LasFile, crs: Crs, **columns: Any) -> PointCloud:
 
 
 def _empty_cloud(layout: LasFile, count: int, crs: Crs, **kept: np.ndarray) -> PointCloud:
-    """Return a cloud with uninitialised columns, beside the given ones."""
+    """Return a cloud with the given columns, while all others are still to be filled."""
     kinds = {name: kind for name, (_, kind) in columns_of(layout).items() if name not in kept}
     return cloud_of(
         layout, crs, **kept, **{name: np.empty(count, kind) for name, kind in kinds.items()}
@@ -249,10 +249,10 @@ def _empty_cloud(layout: LasFile, count: int, crs: Crs, **kept: np.ndarray) -> P
 def _fill(
     layout: LasFile, cloud: PointCloud, where: slice, points: laspy.PackedPointRecord
 ) -> None:
-    """Copy points into a part of a cloud, except for coordinates that stay among its records."""
-    there = () if cloud.records is None else _COORDINATES
+    """Copy points into a part of a cloud, except for coordinates that are views of its records."""
+    views = () if cloud.records is None else _COORDINATES
     columns = columns_of(layout).items()
-    names = {name: source for name, (source, _) in columns if name not in there}
+    names = {name: source for name, (source, _) in columns if name not in views}
 
     def copy(part: slice) -> None:
         for name, source in names.items():

@@ -35,7 +35,7 @@ _LARGEST_LEGACY_CLASS = 31
 
 
 def check_class(path: object, point_format: int, value: int, use: str) -> None:
-    """Refuse a class that does not fit into the point format of a file; the error names its use,
+    """Refuse a class that does not fit into the point format of a file; the message names its use,
     such as "the ground".
     """
     # Formats 0 to 5 have five bits for the class.
@@ -47,8 +47,8 @@ def check_class(path: object, point_format: int, value: int, use: str) -> None:
 
 
 def needed(layout: LasFile, times: bool = False, strips: bool = False) -> tuple[str, ...]:
-    """Return the layers of points (formats 6 to 10) that a `PointCloud` needs, with those of GPS
-    times and strips (point source ids) if wanted.
+    """Return the layers of points (formats 6 to 10) that a `PointCloud` needs, and if wanted the
+    layers of GPS times and strips (point source ids).
     """
     # x, y, returns and scanner channel are always decompressed, and not in this list.
     layers = (*_NEEDED, _REMEMBERED) if remembers(layout) else _NEEDED
@@ -72,14 +72,14 @@ def read_records(
     columns: Sequence[str] | None = None,
     pieces: Iterable[slice] | None = None,
 ) -> Iterator[np.ndarray]:
-    """Yield the records of a file as writable arrays, uint8 (up to `most`, record length), parts of
-    `into`, or ones whose memory the next can reuse.
+    """Yield the records of a file as writable arrays, uint8 (up to `most`, record length): parts of
+    `into`, or arrays that use the same memory.
     """
     # `columns` are the layers to decompress (formats 6 to 10, named as in
-    # `laspy.DecompressionSelection`), by default all; x, y, returns and scanner channel always are,
-    # others are undefined.
-    # `pieces` are what to read at a time, without gaps, none longer than `most`; by default about
-    # as many points as are read in half a second.
+    # `laspy.DecompressionSelection`), by default all. x, y, returns and scanner channel are always
+    # decompressed; other layers are undefined.
+    # `pieces` are the parts to read, without gaps, of at most `most` points; by default about as
+    # many points as are read in half a second.
     with _reader(layout, columns) as read:
         if into is None:
             buffer = np.empty((min(most, layout.count), layout.record_length), dtype=np.uint8)
@@ -95,14 +95,14 @@ def _reader(
     layout: LasFile, columns: Sequence[str] | None
 ) -> Iterator[Callable[[np.ndarray, int], None]]:
     """Yield a function that fills an array with the next records, given the index of the first."""
-    kept = layout.unpacked
-    if kept is not None and kept.has(columns):
-        kept_in, start = kept.file, 0
+    unpacked, source, start = layout.unpacked, layout.path, layout.points_start
+    if unpacked is not None and unpacked.has(columns):
+        source, start = unpacked.file, 0
     else:
-        kept, kept_in, start = None, layout.path, layout.points_start
-    opened = open_source(kept_in) if isinstance(kept_in, Path) else contextlib.nullcontext(kept_in)
+        unpacked = None
+    opened = open_source(source) if isinstance(source, Path) else contextlib.nullcontext(source)
     with opened as file:
-        if layout.laszip is not None and kept is None:
+        if layout.laszip is not None and unpacked is None:
             file.seek(start)
             decompressor = _decompressor(layout, layout.laszip, file, columns)
             yield lambda records, _: decompressor.decompress_many(records.reshape(-1))
@@ -111,7 +111,7 @@ def _reader(
         def read(records: np.ndarray, first: int) -> None:
             # Several readers can share an open file.
             file.seek(start + first * layout.record_length)
-            # Files have this, but not the type `BinaryIO`.
+            # The type `BinaryIO` lacks this method, which all binary files have.
             if file.readinto(records.reshape(-1)) != records.size:  # type: ignore[attr-defined]
                 raise damaged(layout.path)
 
@@ -138,7 +138,7 @@ def as_points(
 
 def column(records: np.ndarray, start: int, kind: str | np.dtype) -> np.ndarray:
     """Return the field that begins at a byte of each record, as a writable view."""
-    # numpy before 1.23 cannot view some columns as another type, but whole rows.
+    # numpy before 1.23 can view whole rows as another type, but not some of their columns.
     row = np.dtype(
         {"names": ["field"], "formats": [kind], "offsets": [start], "itemsize": records.shape[1]}
     )
@@ -146,7 +146,7 @@ def column(records: np.ndarray, start: int, kind: str | np.dtype) -> np.ndarray:
 
 
 class HeaderCounts:
-    """Counts what a header states about points, while they are written."""
+    """Collects the numbers and limits of points that a header states, while they are written."""
 
     def __init__(self, layout: LasFile) -> None:
         self._layout = layout
@@ -222,7 +222,7 @@ class LazRecordWriter:
 
 
 class _ErrorKeeper:
-    """A file that stores its error, since lazrs passes on neither its type nor its number."""
+    """A file that stores its error, since lazrs raises another error without its number."""
 
     def __init__(self, file: BinaryIO) -> None:
         self._file = file

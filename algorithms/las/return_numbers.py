@@ -1,4 +1,4 @@
-"""Return numbers, also those that begin at 0, where the LAS specification counts from 1."""
+"""Return numbers, which the LAS specification counts from 1, and some files from 0."""
 
 from __future__ import annotations
 
@@ -10,16 +10,17 @@ FROM_ZERO = (
     "The return numbers begin at 0, not at 1 as in the LAS specification: each counts as one"
     " higher."
 )
-# The flag of points whose pulses have several returns.
+# The flag of points of pulses with several returns.
 MULTI_RETURN = "multi return"
-# In files that count from 0, at most this share of pulses seems to count from 1.
+# If a file counts from 0, the largest share of pulses that seem to count from 1.
 _MOST_WRONG = 0.02
-# First and last returns may differ by this share, as pulses lie partly outside of what is read.
+# The share by which the numbers of first and last returns may differ, since some returns of pulses
+# lie outside of the points that are read.
 _CUT_OFF = 0.2
 
 
 class SeveralReturns:
-    """Tells which of some points are of pulses with several returns, without an array of all."""
+    """Returns which of some points are of pulses with several returns, without an array for all."""
 
     def __init__(self, cloud: PointCloud) -> None:
         self._counts = cloud.number_of_returns
@@ -29,13 +30,13 @@ class SeveralReturns:
 
 
 def count_from_one(cloud: PointCloud) -> PointCloud:
-    """Return points that were just read with return numbers that begin at 1, also if those of the
-    file begin at 0.
+    """Return points that were just read with return numbers that begin at 1, even if they begin at
+    0 in the file.
     """
-    # They do if pulses with several returns have a return 0, others above it, and none with the
-    # number of returns; or if numbers of returns begin at 0, too, so that all returns 0 are as many
-    # as those that have the number of returns. Files whose return numbers are all 0 do not count
-    # returns at all.
+    # They begin at 0 if pulses with several returns have a return 0 and higher ones, but no return
+    # whose number is the number of returns; or if numbers of returns begin at 0 as well, so that as
+    # many points have return 0 as have the number of returns. A file whose return numbers are all 0
+    # does not count returns.
     number, total = cloud.return_number, cloud.number_of_returns
     if number.all():
         return cloud

@@ -1,4 +1,4 @@
-"""Opens input files, and describes what is wrong with them."""
+"""Opens input files, and makes the errors for files that cannot be read."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ def read_text(path: Path) -> str:
 
 
 def open_source(path: Path) -> BinaryIO:
-    """Open a file to read its bytes; refuse what is missing, a folder, no ordinary file or not
-    readable.
+    """Open a file to read its bytes; refuse a path that is missing, not readable, a folder, or
+    another kind of file, such as a pipe.
     """
     try:
         kind = os.stat(path).st_mode
         if stat.S_ISDIR(kind):
             raise BareEarthError(f"{path} is a folder. Give a file.")
-        if not stat.S_ISREG(kind):  # opening a pipe would wait until somebody writes to it
+        if not stat.S_ISREG(kind):  # to open a pipe would wait for a writer
             raise BareEarthError(f"{path} is a pipe or a device, not a file. Give a file.")
         return open(path, "rb")
     except FileNotFoundError:
@@ -45,7 +45,7 @@ class FileState(NamedTuple):
 
     size: int  # bytes
     modified: int  # nanoseconds
-    inode: int  # another file can have replaced it
+    inode: int  # shows whether another file has replaced it
     device: int
 
     @classmethod
@@ -76,10 +76,10 @@ def damaged(path: Path) -> BareEarthError:
 
 @contextlib.contextmanager
 def damage_told(path: Path) -> Iterator[None]:
-    """Turn all errors of the libraries on a damaged file into one sentence; wrap only calls of
-    them.
+    """Turn all errors of the libraries into the error for a damaged file; the block must only call
+    libraries.
     """
-    # Their errors have many types, and panics of the decompressor, which is written in Rust, do not
+    # The errors have many types, and panics of the decompressor, which is written in Rust, do not
     # even derive from `Exception`.
     try:
         yield

@@ -12,8 +12,8 @@ from ..core.unnamed import reach_disk
 from .lasfile import LasFile, Unpacked
 from .records import read_records
 
-# Records are kept only if the disk has room for this many bytes a point, several times as many as
-# they have.
+# Records are written only if the disk has room for this many bytes per point, several times their
+# size.
 _BYTES_A_POINT = 100
 
 
@@ -28,8 +28,8 @@ def unpack(
     columns: Sequence[str] | None = None,
     progress: Progress = SILENT,
 ) -> LasFile:
-    """Write the records of a compressed file into an empty open one, from which those of the
-    returned file are read, so that it must stay open.
+    """Write the records of a compressed file into an open empty file, and return the compressed
+    file, which now reads its records from there, so that the open file must stay open.
     """
     done = 0
     for records in read_records(layout, columns=columns):

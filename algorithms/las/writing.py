@@ -37,8 +37,8 @@ _EXTENDED_WITH_WAVEFORMS = (9, 10)
 
 
 def check_writable(target: Path) -> None:
-    """Refuse, before any work is done, a file name that is not .las, .laz or .copc.laz, or whose
-    format lacks a package.
+    """Refuse, before any work is done, a file name that is not .las, .laz or .copc.laz, or a format
+    whose package is missing.
     """
     target = Path(target)
     if target.suffix.lower() not in (".las", ".laz"):
@@ -55,15 +55,15 @@ def write_changed(
     cloud: PointCloud | None = None,
     memory: int | None = None,
 ) -> None:
-    """Write `source` with changes of its points, and all else as it was, or leave nothing; records
-    that `cloud` keeps are changed in place.
+    """Write `source` with changes of its points and nothing else changed, or write no file; records
+    that `cloud` has are changed in place.
     """
     # The order of the points, integers, extra bytes, header and records stay, except for what
     # compression needs. If the changes leave out points, header and counts describe the others. For
     # .copc.laz, the order of the points changes, and point formats 0 to 5 become 6 to 8, as its
     # specification requires; `memory` is as for `write_copc`.
-    # A source that has changed since is refused if it was opened before its points were read, or if
-    # `cloud` is given. If that holds all points, less is read again.
+    # A source that has changed meanwhile is refused if it was opened before its points were read,
+    # or if `cloud` is given. If `cloud` holds all points, less is read again.
     target = Path(target)
     check_writable(target)
     layout = open_las(source)
@@ -88,7 +88,7 @@ def write_changed(
 
 
 def write_without_points(layout: LasFile, target: Path) -> None:
-    """Write a file without points as it is; its name may ask for compression, or for none."""
+    """Write a file without points unchanged, or compressed or uncompressed as its name asks."""
     check_writable(target)
     wants = target.suffix.lower() == ".laz"
     with replacing(target) as temporary:
@@ -105,15 +105,15 @@ def is_copc(target: Path) -> bool:
 
 
 class Kept(NamedTuple):
-    """Positions in a compressed file that allow to copy everything but the classes."""
+    """Positions in a compressed file, with which everything but the classes can be copied."""
 
     layers: ClassLayers
     octree: CopcIndex | None = None  # if the output is COPC as well
 
 
 def layers_kept(source: LasFile, target: Path) -> Kept | None:
-    """Return what is needed to replace only the classes of a compressed file, None if the output is
-    of another kind, or the source has no layers.
+    """Return the layers of a compressed file whose classes are replaced in the output; None if the
+    output has another format, or the source has no layers.
     """
     if target.suffix.lower() != ".laz" or is_copc(target) > source.is_copc:
         return None
@@ -137,7 +137,7 @@ def _replace_classes(
     progress: Progress,
     cloud: PointCloud | None,
 ) -> None:
-    """Write a compressed file, of whose points only the classes change."""
+    """Write a compressed file in which only the classes change."""
     layout = rewriting.target
     dropped = (COPC_INFO, COPC_HIERARCHY) if kept.octree is None else ()
     if kept.octree is None:
@@ -169,7 +169,8 @@ def _write(rewriting: EditedFile, target: Path, progress: Progress) -> None:
     vlrs = [vlr for vlr in layout.vlrs if vlr.key not in (LASZIP, COPC_INFO)]
     laszip = laszip_vlr(layout.point_format, layout.extra_bytes) if compressed else None
     if laszip is not None:
-        # In its former place, so that a file that is compressed again differs only in its points.
+        # The record stays in its place, so that a file that is compressed again differs only in its
+        # points.
         before = [vlr.key for vlr in layout.vlrs if vlr.key != COPC_INFO]
         vlrs.insert(before.index(LASZIP) if LASZIP in before else len(vlrs), laszip)
     with open(target, "w+b") as file:
@@ -190,7 +191,7 @@ def _write(rewriting: EditedFile, target: Path, progress: Progress) -> None:
             progress(done)
         writer.finish()
         if rewriting.leaves_out:
-            # The header of the source describes all points, not those that are left.
+            # The header of the source describes all points, and not only the written ones.
             layout = with_statistics(
                 layout, counts.lowest.tolist(), counts.highest.tolist(), counts.returns.tolist()
             )

@@ -25,10 +25,10 @@ class Area(Geometry):
     """A part of the plane, in coordinates of the CRS."""
 
     box: Box | None = None  # smallest x and y, largest x and y; the border belongs to the box
-    # float64 (n, 2): The rings of each polygon, closed or not, in any direction. By the even-odd
-    # rule, rings inside another ring are holes. A point on the common border of two polygons
+    # The rings of each polygon, float64 (n, 2), closed or not, in any direction. By the even-odd
+    # rule, a ring inside another ring is a hole. A point on the common border of two polygons
     # belongs to one of them. If there is a box as well, the area is the part of the polygons in the
-    # box. Those of a file can be in another CRS until the points are known; see `located`.
+    # box. Polygons of a file can be in another CRS until the points are known; see `located`.
     polygons: tuple[Polygon, ...] = ()
 
     def __post_init__(self) -> None:
@@ -87,7 +87,7 @@ class Area(Geometry):
         return west <= box[2] and east >= box[0] and south <= box[3] and north >= box[1]
 
     def contains(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
-        """Return which places lie in the area."""
+        """Return which places lie in the area; boolean, shape (n,)."""
         return self._numbers(x, y) > 0
 
     def of(self, cloud: PointCloud) -> np.ndarray:

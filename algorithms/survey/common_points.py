@@ -15,11 +15,11 @@ from ..las.opening import open_las
 from ..las.reading import read_cloud
 from .window import read_window
 
-# Points of a strip: they are compared in strips from west to east, to bound memory.
+# Points of a strip: to limit memory, points are compared in strips from west to east.
 _STRIP = 1 << 22
-# Files of which fewer points are common do not show the same survey.
+# The least share of common points of two files of the same survey.
 _LEAST_SHARE = 0.01
-# Share of the points at the same places that must have equal times; else times are not used.
+# The least share of points at equal places with equal times; if fewer are, times are not compared.
 _TRUSTED = 0.5
 # Every place that coordinates can have, as a finite box: west, south, east, north.
 _EVERYWHERE = (-1e300, -1e300, 1e300, 1e300)
@@ -28,22 +28,22 @@ _EVERYWHERE = (-1e300, -1e300, 1e300, 1e300)
 class Matched(NamedTuple):
     """The points that two files have in common, in the same order."""
 
-    clouds: tuple[PointCloud, PointCloud]  # of both files, perhaps without some that are not common
-    # of each cloud, the common points, int64 (n,)
+    clouds: tuple[PointCloud, PointCloud]  # of both files, perhaps without points that one lacks
+    # The indices of the common points in each cloud, int64 (n,).
     orders: tuple[slice | np.ndarray, slice | np.ndarray]
-    alone: tuple[int, int]  # points of each file that the other file does not have
+    alone: tuple[int, int]  # numbers of points that only the first, or only the second file has
 
 
 def match_files(first: Path, second: Path, progress: Progress, crs: str | None = None) -> Matched:
     """Find the points that two files have in common, in any order; refuse files with hardly any."""
-    # Points are the same if their coordinates, return numbers and GPS times are. Times do not count
-    # where a file has none, or for most points another one. Of several equal points, each is used
-    # once. If the scales of the files differ, coordinates are compared in steps of the coarser one.
-    # One file can be a part of the other, or both can overlap. Of the one with more points only the
-    # extent of the other is kept.
+    # Points are the same if their coordinates, return numbers and GPS times are equal. Times are
+    # not compared if a file has none, or if they differ for most points. A point has at most one
+    # partner. If the scales of the files differ, coordinates are compared in steps of the coarser
+    # scale. One file can be a part of the other, or both can overlap: of the file with more points,
+    # only points in the extent of the other file are kept.
     files = open_las(first, crs), open_las(second, crs)
-    left = progress
-    # COPC has an order of its own.
+    reading = progress
+    # Points of COPC are in another order than those of other files.
     if files[0].count == files[1].count and files[0].is_copc == files[1].is_copc:
         clouds = (
             read_cloud(files[0], progress.part(0.0, 0.2)),
@@ -52,10 +52,10 @@ def match_files(first: Path, second: Path, progress: Progress, crs: str | None =
         if _is_same_order(*clouds):
             return Matched(clouds, (slice(None), slice(None)), (0, 0))
         del clouds
-        # The messages of reading were given.
-        left = progress.part(0.4, 1.0).quiet()
-    clouds = _read(files, left)
-    orders = _pairs(clouds, left.part(0.6, 1.0))
+        # The messages of reading were reported already.
+        reading = progress.part(0.4, 1.0).quiet()
+    clouds = _read(files, reading)
+    orders = _pairs(clouds, reading.part(0.6, 1.0))
     count = len(orders[0])
     if count < _LEAST_SHARE * min(file.count for file in files) or not count:
         raise BareEarthError(
@@ -81,7 +81,7 @@ def _is_same_order(first: PointCloud, second: PointCloud) -> bool:
 
 
 def _read(files: tuple[LasFile, LasFile], progress: Progress) -> tuple[PointCloud, PointCloud]:
-    """Read the smaller file, and of the other one what lies in its extent."""
+    """Read the smaller file, and the points of the other file in its extent."""
     small, large = sorted(range(2), key=lambda number: files[number].count)
     has_times = all(file.has_gps_times for file in files)
     first = read_window(files[small], _EVERYWHERE, progress.part(0.0, 0.3), times=has_times)
@@ -126,7 +126,7 @@ def _pairs(
                 key.append(time[strip].view(np.int64))
             timed.append(_equal(strips, keys))
         progress(number / count)
-    # Where times were changed, few points have the same.
+    # If the times of a file were changed, few points have equal times.
     with_times, without = (sum(len(first) for first, _ in pairs) for pairs in (timed, untimed))
     use_times = timed and with_times >= _TRUSTED * without
     first, second = map(np.concatenate, zip(*(timed if use_times else untimed)))
@@ -137,13 +137,13 @@ def _pairs(
 def _equal(
     numbers: Sequence[np.ndarray], keys: Sequence[Sequence[np.ndarray]]
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Return the numbers of the rows of two tables, given as columns, that are equal, (k,) each;
-    several equal rows are paired in order, and none is used twice.
+    """Return the numbers of equal rows of two tables, (k,) each, given the columns of the tables;
+    several equal rows are paired in order, and no row is used twice.
     """
     columns = [np.concatenate(pair) for pair in zip(*keys)]
     if not len(columns[0]):
         return numbers[0], numbers[1]
-    # Stable, so that equal rows are in order, those of the first table before the others.
+    # A stable sort keeps equal rows in order, rows of the first table before those of the second.
     order = np.lexsort(columns[::-1])
     is_new = np.ones(len(order), dtype=bool)
     is_new[1:] = np.any([column[order][1:] != column[order][:-1] for column in columns], axis=0)

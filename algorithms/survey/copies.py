@@ -14,11 +14,11 @@ _MOST_NAMES = 3
 
 
 def copies_in(tiles: Sequence[LasFile], are_named: Sequence[bool], progress: Progress) -> set[Path]:
-    """Return files that hold the same points as a file of the same name beside them, and tell of
-    them, except for those that the user named and not only their folder.
+    """Return the files that hold the same points as a file with the same name but another ending in
+    the same folder, and report them; files that the user named are not among them.
     """
-    # QGIS writes such a .copc.laz file beside each file that it shows. Of the files, that with the
-    # shortest ending is used.
+    # QGIS writes such a .copc.laz file beside each file that it shows. The file with the shortest
+    # ending is used.
     first: dict[tuple[object, ...], LasFile] = {}
     copies: dict[Path, str] = {}
     pairs = zip(are_named, tiles)
@@ -38,7 +38,7 @@ def copies_in(tiles: Sequence[LasFile], are_named: Sequence[bool], progress: Pro
 
 
 def tell_of_twins(tiles: Sequence[LasFile], progress: Progress) -> None:
-    """Warn of files that seem to hold the same points, such as copies of another name."""
+    """Warn of files that seem to hold the same points, such as copies with other names."""
     seen: dict[tuple[float, ...], LasFile] = {}
     for tile in tiles:
         twin = seen.setdefault(_content(tile), tile)

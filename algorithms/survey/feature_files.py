@@ -9,7 +9,7 @@ import struct
 import warnings
 from itertools import islice
 from pathlib import Path
-from typing import Any, Callable, Iterable, Iterator, Mapping, NamedTuple
+from typing import Callable, Iterable, Iterator, Mapping, NamedTuple, Sequence, Union
 
 import numpy as np
 
@@ -28,8 +28,12 @@ _BESIDE = {
 # Formats to which features cannot be added later.
 _AT_ONCE = (".fgb",)
 _FEATURES_A_STEP = 20_000
-# Numbers of the kinds in well-known binary; those with z are 1000 more.
+# Numbers of the kinds in well-known binary; kinds with z are 1000 higher.
 _KINDS = {"Point Z": 1001, "LineString": 2, "LineString Z": 1002, "Polygon": 3}
+
+
+# Of a line or point; or the rings of a polygon.
+Corners = Union[np.ndarray, Sequence[np.ndarray]]
 
 
 class Layer(NamedTuple):
@@ -45,15 +49,15 @@ class Layer(NamedTuple):
 class Feature(NamedTuple):
     """A line, a point or a polygon to write."""
 
-    values: tuple[Any, ...]  # one for each field; NaN and None for none
-    # float64, (n, 2) or (n, 3): x, y and z if the kind has it; (1, 3) for a point; of a polygon the
-    # closed rings, x and y, the outer one first
-    corners: Any
+    values: tuple[object, ...]  # one for each field; NaN and None for no value
+    # float64, (n, 2) or (n, 3): x, y, and z if the kind has it; (1, 3) for a point; for a polygon
+    # its closed rings (x and y), the outer ring first
+    corners: Corners
 
 
 def feature_writer(target: Path) -> Callable[..., int]:
-    """Return the function that writes features, ``write(target, features, layer, progress)``, and
-    returns their number; refuse a format that no library writes.
+    """Return the function ``write(target, features, layer, progress)`` that writes features and
+    returns their number; refuse a format that no library can write.
     """
     suffix = target.suffix.lower()
     if suffix not in FORMATS:
@@ -171,23 +175,23 @@ def _by_gdal(
 
 
 def _layer_of(target: Path, layer: Layer) -> str:
-    """Return the name of the layer; formats with one layer have that of the file."""
+    """Return the name of the layer; in formats with one layer it is the name of the file."""
     return layer.name if target.suffix.lower() == ".gpkg" else target.stem
 
 
-def _or_none(value: Any) -> Any:
+def _or_none(value: object) -> object:
     return None if isinstance(value, float) and math.isnan(value) else value
 
 
-def _lists(kind: str, corners: Any) -> list[Any]:
-    """Return the coordinates of a feature as GeoJSON has them."""
+def _lists(kind: str, corners: Corners) -> list[object]:
+    """Return the coordinates of a feature as in GeoJSON."""
     if kind == "Polygon":
         return [np.round(ring, 3).tolist() for ring in corners]
     places = np.round(corners, 3).tolist()
     return places[0] if kind == "Point Z" else places
 
 
-def wkb_of(kind: str, corners: Any) -> bytes:
+def wkb_of(kind: str, corners: Corners) -> bytes:
     """Return a feature as well-known binary."""
     head = struct.pack("<BI", 1, _KINDS[kind])
     if kind == "Point Z":
@@ -198,7 +202,7 @@ def wkb_of(kind: str, corners: Any) -> bytes:
     return head + struct.pack("<I", len(corners)) + b"".join(rings)
 
 
-def _coordinates(corners: np.ndarray) -> bytes:
+def _coordinates(corners: Corners) -> bytes:
     return np.ascontiguousarray(corners, "<f8").tobytes()
 
 
@@ -211,5 +215,5 @@ def _in_steps(features: Iterable[Feature], most: int | None) -> Iterator[list[Fe
 
 
 def files_beside(path: Path) -> list[str]:
-    """Return the names of further files of a format; old ones would do harm to new features."""
+    """Return the names of the other files of a format, which describe the old features."""
     return [f"{path.stem}{ending}" for ending in _BESIDE.get(path.suffix.lower(), ())]

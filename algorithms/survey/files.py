@@ -7,7 +7,7 @@ from collections import Counter
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import Any, Iterable, Iterator, Tuple, Union
+from typing import Iterable, Iterator, Tuple, Union
 
 import numpy as np
 

@@ -15,8 +15,8 @@ from .vpc import check_vpc
 
 
 def check_outputs(wanted: Iterable[tuple[str, Path]], sources: Sequence[Path] = ()) -> None:
-    """Refuse outputs of a run, given their kinds and paths, as `check_kind` does, or of which two
-    are the same.
+    """Refuse outputs of a run, given their kinds and paths, if `check_kind` refuses one, or if two
+    are the same file.
     """
     outputs = list(wanted)
     check_distinct(path for _, path in outputs)
@@ -25,8 +25,8 @@ def check_outputs(wanted: Iterable[tuple[str, Path]], sources: Sequence[Path] = 
 
 
 def check_kind(kind: str, path: Path, sources: Sequence[Path] = ()) -> None:
-    """Refuse an output that has an unsuitable name or folder, is a source, or is in use, or whose
-    format needs a library that is missing.
+    """Refuse an output that has an unsuitable name or folder, is a source or in use, or has a
+    format whose library is missing.
     """
     if kind == "folder":
         # A run makes it if its own folder exists.
@@ -53,14 +53,14 @@ def check_kind(kind: str, path: Path, sources: Sequence[Path] = ()) -> None:
 
 
 def place(outputs: Outputs, kind: str, path: Path) -> Path:
-    """Return where an output is written until the run ends; files that describe an old one, such as
-    statistics, will be removed.
+    """Return the path where an output is written until the run ends; files that describe an old
+    output, such as statistics, are removed at the end.
     """
     if kind == "features":
         return outputs.files(path, files_beside(path))
     if kind == "points" and not path.suffix:
         return outputs.files(path)
-    # By the statistics of old cells, QGIS would stretch the colours of new ones.
+    # With the statistics of the old cells, QGIS would stretch the colours of the new cells.
     return outputs.file(path, [f"{path.name}.aux.xml"] if kind == "raster" else [])
 
 
@@ -83,7 +83,7 @@ def _check_points(path: Path) -> None:
     check_writable(path)
 
 
-# What refuses a name, or a format without its library.
+# Functions that refuse a name, or a format without its library, by kinds of outputs.
 _FORMATS: dict[str, Callable[[Path], object]] = {
     "cloud": check_writable,
     "features": feature_writer,

@@ -33,7 +33,7 @@ _LIMITS = -(2**31), 2**31 - 1
 
 
 def overview_of(vpc: Path) -> Path:
-    """Return the overview of a virtual point cloud; it need not exist."""
+    """Return the path of the overview of a virtual point cloud."""
     return vpc.with_name(vpc.stem + _ENDING)
 
 
@@ -45,10 +45,9 @@ def is_overview(path: Path) -> bool:
 
 def write_overview(vpc: Path, files: Sequence[LasFile], progress: Progress = SILENT) -> Path | None:
     """Write the overview of a virtual point cloud, which need not exist yet, from the uppermost
-    nodes of its COPC files, or return None.
+    nodes of its COPC files; return None if a file is not COPC, or has the path of the overview.
     """
-    # If a file is not COPC, viewers do not show its points at any scale, and other files must not
-    # be overwritten.
+    # Viewers do not show the points of other files than COPC at any scale.
     target, filled = overview_of(vpc), [file for file in files if file.count]
     is_one_of_them = any(file.path.resolve() == target.resolve() for file in files)
     if not filled or is_one_of_them or not all(file.is_copc for file in files):
@@ -68,7 +67,7 @@ def write_overview(vpc: Path, files: Sequence[LasFile], progress: Progress = SIL
 
 
 def _sample(layout: LasFile, like: LasFile, count: int) -> np.ndarray:
-    """Return about `count` points from everywhere in a file, as records of another file."""
+    """Return about `count` points from all parts of a file, as records of the file `like`."""
     hierarchy = read_hierarchy(layout)
     nodes = find_nodes(hierarchy, layout.outer_box)
     nodes = nodes[np.argsort(nodes["key"][:, 0], kind="stable")]
@@ -84,7 +83,7 @@ def _sample(layout: LasFile, like: LasFile, count: int) -> np.ndarray:
 
 
 def _as_records(layout: LasFile, like: LasFile, records: np.ndarray) -> np.ndarray:
-    """Return points as records of another file, with its scale and offset."""
+    """Return points as records of the file `like`, with its scale and offset."""
     old = named(layout, records)
     extra = [extra_dimensions(file) for file in (layout, like)]
     if layout.point_format == like.point_format and extra[0] == extra[1]:
@@ -98,5 +97,5 @@ def _as_records(layout: LasFile, like: LasFile, records: np.ndarray) -> np.ndarr
         integers = np.rint((values - like.offset[axis]) / like.scale[axis])
         fits &= (integers >= _LIMITS[0]) & (integers <= _LIMITS[1])
         column(new, 4 * axis, "<i4")[:] = np.clip(integers, *_LIMITS)
-    # Points too far away for the scale of the first file.
+    # Without points that are too far away for the scale of `like`.
     return new[fits]

@@ -17,8 +17,8 @@ _SPREAD = (0xBF58476D1CE4E5B9, 0x94D049BB133111EB)
 
 
 class RepeatedPoints:
-    """Tells which points of a survey were there before, in the order of its files; `array(name,
-    shape, kind)` returns an array of zeros, in memory or on disk.
+    """Finds the points of a survey that repeat an earlier point, in the order of the files;
+    `array(name, shape, kind)` returns an array of zeros, in memory or on disk.
     """
 
     # Points are the same if their coordinates, return numbers and, where all files have them, GPS
@@ -30,8 +30,8 @@ class RepeatedPoints:
     ) -> None:
         # Whether the parts must have GPS times.
         self.has_times = all(tile.has_gps_times for tile in tiles)
-        # Points that an earlier file holds as well, and other points that repeat one of their file.
-        self.shared = self.duplicates = 0
+        self.shared = 0  # points that an earlier file holds as well
+        self.duplicates = 0  # other points that repeat a point of the same file
         # Coordinates are compared in the smallest unit of all files.
         self._unit = tuple(min(tile.scale[axis] for tile in tiles) for axis in range(3))
         self._starts = np.cumsum([0, *(tile.count for tile in tiles)], dtype=np.int64)
@@ -66,7 +66,7 @@ class RepeatedPoints:
         return keys
 
     def find(self) -> None:
-        """Find the repeated points, when all parts are added, and begin with the parts anew."""
+        """Find the repeated points, after all parts were added; `among` starts again with them."""
         bits = math.ceil(math.log2(max(len(self._keys) / _SORTED_TOGETHER, 1.0)))
         for number in range(1 << bits):
             if bits:
@@ -77,7 +77,7 @@ class RepeatedPoints:
         self._place = 0
 
     def _find_among(self, places: np.ndarray, keys: np.ndarray) -> None:
-        """Find the repeated points among those whose keys begin alike."""
+        """Find the repeated points among points whose keys begin with the same bits."""
         in_order = np.sort(keys)
         if not np.any(in_order[1:] == in_order[:-1]):
             return
@@ -87,14 +87,14 @@ class RepeatedPoints:
         first = places[is_first][np.cumsum(is_first) - 1]
         again = places[~is_first]
         self._is_repeated[again] = True
-        before, here = (
+        first_file, file = (
             np.searchsorted(self._starts, indices, "right") for indices in (first[~is_first], again)
         )
-        shared = int(np.count_nonzero(before != here))
+        shared = int(np.count_nonzero(first_file != file))
         self.shared += shared
         self.duplicates += len(again) - shared
 
     def among(self, part: PointCloud) -> np.ndarray:
-        """Return which points of the next part were there before; boolean, shape (n,)."""
+        """Return which points of the next part repeat an earlier point; boolean, shape (n,)."""
         start, self._place = self._place, self._place + part.count
         return np.asarray(self._is_repeated[start : self._place])

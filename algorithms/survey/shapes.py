@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Iterator, NamedTuple, Sequence
+from typing import Any, Iterator, NamedTuple, Sequence, Tuple, TypeVar
 
 import numpy as np
 
@@ -11,6 +11,8 @@ from ..core.points import Box, box_in_words, box_round
 from ..core.progress import SILENT, Progress
 from ..crs.provider import LONGITUDE_LATITUDE, library, transformed
 from ..crs.system import Crs
+
+_Shape = TypeVar("_Shape", np.ndarray, Tuple[np.ndarray, ...])  # a line, or the rings of a polygon
 
 
 class Place(NamedTuple):
@@ -21,9 +23,9 @@ class Place(NamedTuple):
     box: Box | None = None  # in units of the CRS; None if it is not known
 
 
-class Shapes(tuple):  # type: ignore[type-arg]
-    """Polygons as in `Area`, or lines, float64 (n, 3), from a file (`source`, for messages), and
-    the CRS that it states, as code or well-known text.
+class Shapes(Tuple[Any, ...]):
+    """Polygons as in `Area`, or lines, float64 (n, 3), with the name of their file (`source`, for
+    messages) and the CRS that it states, as code or well-known text.
     """
 
     crs: str | None
@@ -45,30 +47,32 @@ class Outside(BareEarthError):
 class Geometry:
     """Base of what holds lines and polygons: an area, corrections, constraints."""
 
-    def located(self, place: Place, progress: Progress = SILENT) -> Any:
-        """Return it with all lines and polygons in the CRS of the points; refuse a kind of them
-        that all lies outside of the points.
+    def located(self, place: Place, progress: Progress = SILENT) -> Geometry:
+        """Return the geometry in the CRS of the points; refuse lines or polygons that all lie
+        outside of the points.
         """
         raise NotImplementedError
 
 
 def located(
-    shapes: Sequence[Any],
+    shapes: Sequence[_Shape],
     words: str,
     place: Place,
     progress: Progress = SILENT,
     near: float | None = None,
-) -> tuple[Any, ...]:
-    """Return lines or polygons in the CRS of the points; refuse them if all are outside of it,
-    lines if all are farther than `near` metres from the points.
+) -> tuple[_Shape, ...]:
+    """Return lines or polygons in the CRS of the points; refuse them if all lie outside of the
+    points, or farther than `near` metres from the points.
     """
-    # Shapes of `Shapes` are transformed from the CRS that their file states. If it states none,
-    # they are longitudes and latitudes if their numbers say so and those of the points do not. All
-    # others are in the CRS of the points already. Heights (z) stay as they are.
+    # Shapes of a file (`Shapes`) are transformed from the CRS that the file states. If it states
+    # none, they are taken as longitudes and latitudes if all their coordinates can be degrees and
+    # those of the points cannot. Other shapes are in the CRS of the points. Heights (z) stay.
     if place.crs.is_geographic:  # the run refuses such points
         return tuple(shapes)
-    found = _in_crs(shapes, place, progress) if isinstance(shapes, Shapes) else tuple(shapes)
-    boxes = np.array([_box_of(shape) for shape in found if len(shape)]).reshape(-1, 4)
+    in_crs: tuple[_Shape, ...] = tuple(shapes)
+    if isinstance(shapes, Shapes):
+        in_crs = _in_crs(shapes, place, progress)
+    boxes = np.array([_box_of(shape) for shape in in_crs if len(shape)]).reshape(-1, 4)
     if place.box is not None and len(boxes):
         reach = (near or 0.0) / place.crs.horizontal_unit
         west, south, east, north = place.box
@@ -76,12 +80,12 @@ def located(
         touches &= (boxes[:, 1] <= north + reach) & (boxes[:, 3] >= south - reach)
         if not touches.any():
             raise outside(words, box_round(boxes), place.name, place.box, near)
-    return found
+    return in_crs
 
 
 def outside(words: str, bounds: Box, of: str, box: Box, near: float | None = None) -> Outside:
-    """Return the error for geometry (`words`) that lies outside of the points (`of` a file or
-    files), or farther than `near` metres.
+    """Return the error for geometry that lies outside of the points, or farther than `near` metres
+    from them; `words` name the geometry, and `of` the files of the points.
     """
     lies = "in" if near is None else f"within {near:g} m of"
     return Outside(
@@ -91,7 +95,7 @@ def outside(words: str, bounds: Box, of: str, box: Box, near: float | None = Non
 
 
 def _in_crs(shapes: Shapes, place: Place, progress: Progress) -> tuple[Any, ...]:
-    """Return shapes of a file in the CRS of the points."""
+    """Return the shapes of a file in the CRS of the points."""
     stated, target = shapes.crs, place.crs
     is_guess = stated is None and _are_degrees(shapes) and not _is_in_degrees(place.box)
     if stated is None and not is_guess:
@@ -127,26 +131,26 @@ def _in_crs(shapes: Shapes, place: Place, progress: Progress) -> tuple[Any, ...]
     return tuple(_moved(shape, places) for shape in shapes)
 
 
-def _parts(shapes: Sequence[Any]) -> Iterator[np.ndarray]:
+def _parts(shapes: Shapes) -> Iterator[np.ndarray]:
     """Yield all lines and rings, in order."""
     for shape in shapes:
         yield from (shape,) if isinstance(shape, np.ndarray) else shape
 
 
-def _moved(shape: Any, places: Iterator[np.ndarray]) -> Any:
-    """Return a shape at other places; its z stays."""
+def _moved(shape: _Shape, places: Iterator[np.ndarray]) -> _Shape:
+    """Return a shape with other x and y, and the same z."""
     if isinstance(shape, np.ndarray):
         return np.column_stack((next(places), shape[:, 2:]))
     return tuple(_moved(ring, places) for ring in shape)
 
 
-def _box_of(shape: Any) -> Box:
+def _box_of(shape: np.ndarray | tuple[np.ndarray, ...]) -> Box:
     corners = shape if isinstance(shape, np.ndarray) else np.concatenate(shape)
     return (*corners[:, :2].min(axis=0), *corners[:, :2].max(axis=0))
 
 
-def _are_degrees(shapes: Sequence[Any]) -> bool:
-    """Return whether the coordinates can be longitudes and latitudes."""
+def _are_degrees(shapes: Shapes) -> bool:
+    """Return whether all coordinates can be longitudes and latitudes."""
     boxes = [_box_of(shape) for shape in shapes if len(shape)]
     return all(map(_is_in_degrees, boxes))
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 import re
 from os import PathLike
-from typing import Any, Callable, Dict, Iterable, Iterator, Tuple
+from typing import Any, Callable, Dict, Iterable, Iterator, Sized, Tuple
 
 import numpy as np
 
@@ -43,62 +43,65 @@ _FARTHEST = 1e12
 _WORDS = {"LineString": "line", "Polygon": "polygon", "Point": "point"}
 
 
-def is_frame(given: Any) -> bool:
-    """Return whether a user gives a GeoDataFrame or a GeoSeries of geopandas."""
+def is_frame(given: object) -> bool:
+    """Return whether an input is a GeoDataFrame or a GeoSeries of geopandas."""
     return hasattr(given, "geometry") and hasattr(given, "to_crs")
 
 
-def is_source(given: Any) -> bool:
-    """Return whether a user gives a file, GeoJSON, or objects of a library as geometries."""
+def is_source(given: object) -> bool:
+    """Return whether an input is a file, GeoJSON, or geometries of a library."""
     return isinstance(given, (str, PathLike)) or is_frame(given) or _geojson_of(given) is not None
 
 
-def read_boundary(source: Any, may_be_empty: bool = False) -> tuple[Polygon, ...]:
-    """Read the polygons of a file, of a GeoDataFrame, of GeoJSON or objects that can become it, or
-    of arrays of rings, and nothing else.
+def read_boundary(source: object, may_be_empty: bool = False) -> tuple[Polygon, ...]:
+    """Read the polygons, and no other geometries, of a file, a GeoDataFrame, GeoJSON, objects with
+    `__geo_interface__`, or arrays of rings.
     """
     return _shapes(source, "Polygon", lambda rings, _: _polygon(rings), may_be_empty)
 
 
-def read_polygons_with_classes(source: Any) -> tuple[Shapes, tuple[Any, ...]]:
-    """Read the polygons of a source with their classes, and nothing else."""
-    found = _shapes(source, "Polygon", _polygon_with_class)
-    polygons, classes = zip(*found)
-    return Shapes(polygons, found.crs, found.source), classes
+def read_polygons_with_classes(source: object) -> tuple[Shapes, tuple[Any, ...]]:
+    """Read the polygons of a source with their classes, and no other geometries."""
+    pairs = _shapes(source, "Polygon", _polygon_with_class)
+    polygons, classes = zip(*pairs)
+    return Shapes(polygons, pairs.crs, pairs.source), classes
 
 
-def read_lines(source: Any, may_be_empty: bool = False) -> tuple[np.ndarray, ...]:
-    """Read the lines of a source, and nothing else."""
+def read_lines(source: object, may_be_empty: bool = False) -> tuple[np.ndarray, ...]:
+    """Read the lines of a source, and no other geometries."""
     return _shapes(source, "LineString", lambda corners, _: _line(corners), may_be_empty)
 
 
-def read_points(source: Any) -> tuple[tuple[np.ndarray, dict[str, Any]], ...]:
-    """Read x, y and z of the points of a source, float64 (3,), NaN for z where there is none, and
-    all of their attributes.
+def read_points(source: object) -> tuple[tuple[np.ndarray, dict[str, Any]], ...]:
+    """Read x, y and z of the points of a source, float64 (3,) with NaN for a missing z, and all of
+    their attributes.
     """
     return _shapes(source, "Point", lambda place, attributes: (_line([place])[0], attributes))
 
 
 def _shapes(
-    source: Any, kind: str, shape_of: Callable[[Any, _Attributes], Any], may_be_empty: bool = False
+    source: object,
+    kind: str,
+    shape_of: Callable[[Any, _Attributes], Sized],
+    may_be_empty: bool = False,
 ) -> Shapes:
-    """Return what `shape_of` returns for coordinates and attributes of each geometry of a kind."""
+    """Return what `shape_of` makes of coordinates and attributes of geometries of a kind."""
     word, crs = _WORDS[kind], None
-    found: Iterable[_Feature]
+    features: Iterable[_Feature]
     try:
         if is_frame(source):
-            label, (found, crs) = FRAME, _of_frame(source, kind)
+            label, (features, crs) = FRAME, _of_frame(source, kind)
         elif isinstance(source, (str, PathLike)):
             label = str(source)
-            found, crs = read_features(label, kind, None if kind == "Point" else CLASS_FIELD)
+            features, crs = read_features(label, kind, None if kind == "Point" else CLASS_FIELD)
         elif (content := _geojson_of(source)) is not None:
-            label, (found, crs) = _GEOMETRY, _of_geojson(content, kind)
+            label, (features, crs) = _GEOMETRY, _of_geojson(content, kind)
         else:
-            label, found = f"The {word}", _of_arrays(source, kind)
+            label, features = f"The {word}", _of_arrays(source, kind)
             if kind == "Polygon":
-                # Those of files are zeros as a rule; corners in arrays keep their heights.
+                # Corners in arrays keep their heights. Those of polygons in files are mostly zero.
                 shape_of = _polygon_with_heights
-        shapes = tuple(shape_of(*feature) for feature in found)
+        shapes = tuple(shape_of(*feature) for feature in features)
     except _INVALID as error:
         raise BareEarthError(f"{label} is not valid: {_one_line(error)}.") from error
     if not any(map(len, shapes)) and not may_be_empty:
@@ -107,8 +110,8 @@ def _shapes(
 
 
 def shapes_of(given: Any, kind: str, may_be_empty: bool = False) -> tuple[Any, ...]:
-    """Return polygons or lines, given as a source or as arrays of corners; perhaps none, of a
-    source if it `may_be_empty`.
+    """Return polygons or lines, given as a source or as arrays of corners; a source without any is
+    refused unless it `may_be_empty`.
     """
     if given is None or isinstance(given, Shapes):
         return given or ()
@@ -122,8 +125,8 @@ def shapes_of(given: Any, kind: str, may_be_empty: bool = False) -> tuple[Any, .
 
 
 def _geojson_of(given: Any) -> Any:
-    """Return geometries in memory as GeoJSON: a dict of it, or an object with `__geo_interface__`
-    as shapely has, one or several; None for anything else.
+    """Return geometries in memory as GeoJSON: a dict, or one or several objects with
+    `__geo_interface__`, as of shapely; None for anything else.
     """
     if isinstance(given, dict):
         return given
@@ -144,7 +147,7 @@ def _geojson_of(given: Any) -> Any:
 
 
 def _of_arrays(given: Any, kind: str) -> Iterator[_Feature]:
-    """Yield corners, or rings of corners, of lists or of one alone; no attributes."""
+    """Yield the corners of one or several lines, or the rings of polygons, without attributes."""
     depth, first = 0, given
     while isinstance(first, (list, tuple, np.ndarray)) and len(first):
         depth, first = depth + 1, first[0]
@@ -157,7 +160,7 @@ def _of_frame(frame: Any, kind: str) -> tuple[Iterable[_Feature], str | None]:
     """Return coordinates and attributes of each geometry of a kind, and the CRS of a frame."""
     shapes = frame.geometry
     rows: Iterable[_Attributes] = itertools.repeat({})
-    # Of a frame without other columns, older pandas returns no records.
+    # For a frame without other columns, older versions of pandas return no records.
     if len(getattr(frame, "columns", ())) > 1:
         rows = frame.drop(columns=shapes.name).to_dict("records")
     found = (

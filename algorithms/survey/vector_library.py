@@ -6,7 +6,7 @@ import importlib.util
 import re
 import warnings
 from pathlib import Path
-from typing import Any, Iterator, NamedTuple, Sequence
+from typing import Any, Callable, Iterator, NamedTuple, Sequence
 
 from ..core.errors import BareEarthError
 from ..las.sources import open_source
@@ -25,7 +25,7 @@ _XML = (".kml", ".gpx")
 
 
 class _Layer(NamedTuple):
-    """A layer: its name, its CRS, and the WKB and attributes of its features."""
+    """A layer, with the WKB and the attributes of its features."""
 
     name: str
     crs: str | None
@@ -35,11 +35,11 @@ class _Layer(NamedTuple):
 def read_features(
     path: Path | str, kind: str, attribute: str | None
 ) -> tuple[list[tuple[Any, dict[str, Any]]], str | None]:
-    """Read the geometries of a kind ("Polygon", "LineString" or "Point") with attributes, None for
-    all, and the CRS of the layer as code or WKT.
+    """Read the geometries of a kind ("Polygon", "LineString" or "Point") with one attribute, or all
+    if it is None, and the CRS of the layer as code or WKT.
     """
-    # Coordinates are as in GeoJSON; ``FILE|layername=NAME`` is one layer of a file, without which
-    # several layers with such geometries are refused.
+    # Coordinates are as in GeoJSON. A path can be ``FILE|layername=NAME``. A file with such
+    # geometries in several layers is refused if no layer is named.
     name, _, wanted = str(path).partition(_LAYER)
     _check(Path(name))
     reads = _library(name)
@@ -69,7 +69,7 @@ def read_features(
     features, crs = found[filled[0]] if filled else ([], None)
     if Path(name).suffix.lower() not in _GEOJSON or not _WGS84.match(crs or ""):
         return features, crs
-    # The library takes GeoJSON as degrees that states no CRS, or one that it does not know.
+    # The library takes coordinates as degrees if GeoJSON states no CRS, or an unknown one.
     with open_source(Path(name)) as file:
         stated = _STATED.search(file.read())
     if stated and not _DEGREES.search(stated[0]):
@@ -80,7 +80,7 @@ def read_features(
 
 
 def _check(path: Path) -> None:
-    """Refuse what is no file, and files that could refer to others."""
+    """Refuse a path that is not a file, and formats that could refer to other files."""
     if path.suffix.lower() in _FOLDERS and path.is_dir():
         return
     if path.suffix.lower() == ".wkt":
@@ -91,8 +91,8 @@ def _check(path: Path) -> None:
         raise BareEarthError(f"{path} is XML, which is not read. Save it as GeoPackage or GeoJSON.")
 
 
-def _library(name: str) -> Any:
-    """Return the function that reads with the installed library."""
+def _library(name: str) -> Callable[[str, str | None], Iterator[_Layer]]:
+    """Return the function that reads layers with the installed library."""
     if importlib.util.find_spec("pyogrio") is not None:
         return _by_pyogrio
     if importlib.util.find_spec("osgeo") is not None:

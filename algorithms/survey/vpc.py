@@ -39,7 +39,7 @@ _EXTENSIONS = [
     "https://stac-extensions.github.io/pointcloud/v1.0.0/schema.json",
     "https://stac-extensions.github.io/projection/v1.1.0/schema.json",
 ]
-# Such as "s3://" or "https://", but not a single letter: that is a drive of Windows.
+# Such as "s3://" or "https://", but not a single letter, which is a drive of Windows.
 _REMOTE = re.compile(r"[a-z][a-z0-9+.-]+://|/vsi", re.IGNORECASE)
 
 
@@ -77,8 +77,8 @@ _COLOURS = [Dimension(name, "unsigned", 2) for name in ("Red", "Green", "Blue")]
 
 
 def read_vpc(path: Path) -> list[Path]:
-    """Return the files that a virtual point cloud lists, relative to its folder if they are not
-    absolute, without opening them; refuse one without files on this computer.
+    """Return the files that a virtual point cloud lists, without opening them; relative paths start
+    from its folder. Refuse it if it lists no files, or files elsewhere than on this computer.
     """
     path = Path(path)
     try:
@@ -122,11 +122,11 @@ def write_vpc(
     overview: bool = False,
     stated: str | None = None,
 ) -> None:
-    """Write a virtual point cloud, with paths relative to its folder, so that it can be moved
-    together with the files, and with an overview, or remove an old overview.
+    """Write a virtual point cloud with paths relative to its folder, so that it can be moved
+    together with the files; also write an overview, or remove an old one.
     """
-    # QGIS shows the points of COPC files, and outlines of others. Only the headers of the files are
-    # read, and a few points for an overview.
+    # QGIS shows the points of COPC files, and only outlines of other files. Only the headers of the
+    # files are read, and a few points for an overview.
     path, files = Path(path), [*map(Path, files)]
     check_vpc(path)
     if not files:
@@ -159,7 +159,7 @@ def write_vpc(
 
 
 def _overview(path: Path, layouts: list[LasFile], progress: Progress) -> Path | None:
-    """Write the overview; return None if it cannot be written, since the list is of use alone."""
+    """Write the overview; if that fails, warn and return None, as the list is useful without it."""
     try:
         return write_overview(path, layouts, progress)
     except BareEarthError as error:
@@ -215,8 +215,8 @@ def _feature(target: Path, layout: LasFile) -> dict[str, Any]:
     wkt = compound_wkt(read_crs(layout)) or ""
     globe = to_wgs84(wkt, ring) if wkt else None
     if globe is None:
-        # As pdal_wrench does without a CRS. If a CRS was stated, QGIS would take these coordinates
-        # for degrees and leave the file out.
+        # pdal_wrench does the same without a CRS. If a CRS was stated, QGIS would take these
+        # coordinates as degrees and leave the file out.
         wkt, globe = "", ring
     return {
         "type": "Feature",
@@ -253,7 +253,7 @@ def _polygon(ring: np.ndarray) -> dict[str, Any]:
 
 
 def _creation(layout: LasFile) -> str:
-    """Return the day on which the file was made; 1970 if it is not valid, as pdal_wrench does."""
+    """Return the day of the header; in 1970 if the year is not valid, as pdal_wrench does."""
     day, year = CREATION.get(layout.header)
     year = year if 1 <= year <= 9999 else 1970
     date = datetime.date(year, 1, 1)

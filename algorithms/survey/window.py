@@ -26,7 +26,7 @@ from ..las.reading import cloud_of, columns_of, read_parts, require_packages
 from ..las.return_numbers import count_from_one
 from .area import Area
 
-# Returns points with other values, given their indices in the file.
+# Returns a part with other values, given its indices in the file.
 Change = Callable[[slice, PointCloud], PointCloud]
 
 
@@ -39,10 +39,10 @@ def read_window(
     change: Change | None = None,  # gets indices in the file and all points in file order
     numbers: bool = False,  # whether the points come with their places in the file
 ) -> PointCloud:
-    """Read the points of a LAS, LAZ or COPC file in a rectangle, which includes its border, in file
-    order, perhaps none.
+    """Read the points of a LAS, LAZ or COPC file in a rectangle with its border, in file order;
+    there may be none.
     """
-    # Of a COPC file only the nodes of its octree that touch the rectangle are read, unless the
+    # Of a COPC file, only the nodes of the octree that touch the rectangle are read, unless the
     # octree is damaged. LAS and LAZ files are read completely, part by part.
     area, layout = Area(box=box), open_las(path)
     require_packages(layout)
@@ -61,7 +61,7 @@ def read_window(
 def parts_in_window(
     layout: LasFile, box: Box, progress: Progress = SILENT, change: Change | None = None
 ) -> Iterator[PointCloud]:
-    """Yield the same points of any file in parts of which each fits into memory."""
+    """Yield the points that `read_window` returns in parts that fit into memory."""
     for part in _chosen(layout, Area(box=box), _in_file(layout, progress, False, change)):
         yield replace(part, scanner_channel=None)
 
@@ -104,7 +104,7 @@ def _in_file(
     change: Change | None,
     numbers: bool = False,
 ) -> Iterator[PointCloud]:
-    """Yield all points of a file part by part; warn if some lie outside the extent it states."""
+    """Yield all points of a file part by part; warn if some lie outside the stated extent."""
     start, is_outside = 0, False
     for part in read_parts(layout, progress, times=times):
         where = slice(start, start + part.count)
@@ -140,7 +140,7 @@ def may_touch(layout: LasFile, box: Box) -> bool:
 
 
 def are_inside(layout: LasFile, area: Area, x: np.ndarray, y: np.ndarray) -> np.ndarray:
-    """Return which places, as integers of a file, lie in an area."""
+    """Return which places lie in an area, given x and y as the integers in a file."""
     (east, north, _), (x0, y0, _) = layout.scale, layout.offset
     return area.contains(x * east + x0, y * north + y0)
 
@@ -155,12 +155,12 @@ def _chosen(layout: LasFile, area: Area, parts: Iterator[PointCloud]) -> Iterato
 
 
 def _joined(layout: LasFile, parts: Iterator[PointCloud], progress: Progress) -> PointCloud:
-    """Return the points of parts, without what only writing needs."""
-    kept = list(parts)
-    if not kept:
+    """Return the points of parts as one cloud, without the columns that only writing needs."""
+    clouds = list(parts)
+    if not clouds:
         names = columns_of(layout)
         empty: dict[str, np.ndarray] = {
             name: np.empty(0, dtype=kind) for name, (_, kind) in names.items()
         }
-        kept = [cloud_of(layout, read_crs(layout, progress), **empty)]
-    return replace(joined(kept), scanner_channel=None)
+        clouds = [cloud_of(layout, read_crs(layout, progress), **empty)]
+    return replace(joined(clouds), scanner_channel=None)

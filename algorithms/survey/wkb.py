@@ -9,7 +9,7 @@ and 3000 for both. Extended WKB marks the same by the highest bits.
 from __future__ import annotations
 
 import struct
-from typing import Any, Iterator
+from typing import Iterator, List, Tuple, Union
 
 import numpy as np
 
@@ -26,21 +26,25 @@ _HAS_SRID = 1 << 29
 _MOST_LEVELS = 20
 
 
-def geometries_of(data: bytes) -> Iterator[tuple[str, Any]]:
+# The name of its type in GeoJSON, and its coordinates; of a polygon, those of each ring.
+_Geometry = Tuple[str, Union[np.ndarray, List[np.ndarray]]]
+
+
+def geometries_of(data: bytes) -> Iterator[_Geometry]:
     """Yield the points, float64 (2,) or (3,), lines (n, 2) or (n, 3), and polygons (lists of rings)
-    of a geometry, also of collections; ValueError for others, such as arcs.
+    of a geometry or a collection; ValueError for other types, such as arcs.
     """
-    # m is left out, and so are empty points.
+    # Values of m and empty points are left out.
     try:
-        found: list[tuple[str, Any]] = []
-        _read(data, 0, found, 0)
+        geometries: list[_Geometry] = []
+        _read(data, 0, geometries, 0)
     except struct.error as error:
         raise ValueError("a geometry is cut off") from error
-    yield from found
+    yield from geometries
 
 
-def _read(data: bytes, start: int, found: list[tuple[str, Any]], level: int) -> int:
-    """Add the geometry that starts at a byte; return where it ends."""
+def _read(data: bytes, start: int, geometries: list[_Geometry], level: int) -> int:
+    """Add the geometry that starts at a byte to a list; return where the geometry ends."""
     order = "<" if data[start : start + 1] == b"\x01" else ">"
     (code,) = struct.unpack_from(f"{order}I", data, start + 1)
     start += 9 if code & _HAS_SRID else 5
@@ -51,23 +55,23 @@ def _read(data: bytes, start: int, found: list[tuple[str, Any]], level: int) -> 
     if kind == _POINT:
         corners, start = _corners(data, start, order, 1, width, has_z)
         if not np.isnan(corners[0, :2]).all():  # an empty point
-            found.append(("Point", corners[0]))
+            geometries.append(("Point", corners[0]))
         return start
     (count,) = struct.unpack_from(f"{order}I", data, start)
     start += 4
     if kind == _LINE:
         corners, start = _corners(data, start, order, count, width, has_z)
-        found.append(("LineString", corners))
+        geometries.append(("LineString", corners))
     elif kind == _POLYGON:
         rings = []
         for _ in range(count):
             (length,) = struct.unpack_from(f"{order}I", data, start)
             ring, start = _corners(data, start + 4, order, length, width, has_z)
             rings.append(ring)
-        found.append(("Polygon", rings))
+        geometries.append(("Polygon", rings))
     elif kind in _COLLECTIONS and level < _MOST_LEVELS:
         for _ in range(count):
-            start = _read(data, start, found, level + 1)
+            start = _read(data, start, geometries, level + 1)
     else:
         raise ValueError(f"a geometry has a type that is not read ({plain}), such as an arc")
     return start
