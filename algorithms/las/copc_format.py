@@ -165,8 +165,8 @@ def _is_kept(record: Vlr | Evlr) -> bool:
 
 def _wkt(layout: LasFile, progress: Progress) -> Vlr | None:
     """Return the record of the CRS as well-known text, which COPC requires."""
-    # As in LAS and LAZ, the file states the same CRS as before. If it stated none, it states that of
-    # the user, since COPC requires a CRS and its header is new in any case.
+    # As in LAS and LAZ, the file states the same CRS as before. If it stated none, it states the
+    # user's, since COPC requires a CRS and its header is new in any case.
     of_file = read_crs(dataclasses.replace(layout, stated=None))
     text = compound_wkt(of_file)
     if text is None and of_file.epsg is None and layout.vlr(*GEOKEY_RECORDS) is None:
