@@ -36,8 +36,8 @@ def run_sink(
     unpacking: Unpacking | None = None,
     outputs: Outputs | None = None,
 ) -> Any:
-    """Run a sink on a survey, or on `results` for its points, and return its summary; raise an
-    error if a block fails. The workers are stopped at the end.
+    """Run a sink on a survey, or on `results` for its points, stop the workers, and return the
+    summary of the sink; raise an error if a block fails.
     """
     # The results of blocks are written into `folder`, which exists and which all workers see.
     # Results that a cancelled or killed run left there are used if nothing has changed.

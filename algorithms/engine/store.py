@@ -198,8 +198,8 @@ class Store:
         return cells
 
     def values(self, number: int) -> np.ndarray:
-        """Return the values of all points of a part, in the order of the part; 0 where no value was
-        stored. Parts are numbered from 0, in the order in which they were added.
+        """Return the values of all points of a part, numbered from 0 in the order in which parts
+        were added; 0 where no value was stored.
         """
         raise NotImplementedError
 

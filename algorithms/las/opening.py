@@ -45,9 +45,10 @@ class NoPoints(BareEarthError):
 
 
 def open_las(path: Path | LasFile, stated: str | None = None) -> LasFile:
-    """Open a file, or return an opened one, and read everything but its points; `stated` is a CRS
-    of the user. Refuse a file that is not LAS or LAZ, or damaged, or, by `NoPoints`, empty.
+    """Open a file, or return an opened one, and read everything but its points; refuse a file that
+    is not LAS or LAZ, or damaged, or, by `NoPoints`, empty.
     """
+    # `stated` is the CRS that a user states in place of that of the file.
     if isinstance(path, LasFile):
         return path
     path = Path(path)

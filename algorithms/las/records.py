@@ -95,7 +95,8 @@ def _reader(
     layout: LasFile, columns: Sequence[str] | None
 ) -> Iterator[Callable[[np.ndarray, int], None]]:
     """Yield a function that fills an array with the next records, given the index of the first."""
-    unpacked, source, start = layout.unpacked, layout.path, layout.points_start
+    source: Path | BinaryIO = layout.path
+    unpacked, start = layout.unpacked, layout.points_start
     if unpacked is not None and unpacked.has(columns):
         source, start = unpacked.file, 0
     else:

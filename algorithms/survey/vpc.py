@@ -77,9 +77,10 @@ _COLOURS = [Dimension(name, "unsigned", 2) for name in ("Red", "Green", "Blue")]
 
 
 def read_vpc(path: Path) -> list[Path]:
-    """Return the files that a virtual point cloud lists, without opening them; relative paths start
-    from its folder. Refuse it if it lists no files, or files elsewhere than on this computer.
+    """Return the files that a virtual point cloud lists, without opening them; refuse it if it
+    lists no files, or files that are not on this computer.
     """
+    # Relative paths start from the folder of the virtual point cloud.
     path = Path(path)
     try:
         content = json.loads(read_text(path))
