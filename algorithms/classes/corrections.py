@@ -75,7 +75,6 @@ def _is_none(value: object) -> bool:
 
 
 def _class(value: Any) -> int:
-    """Return the value of an attribute as a class."""
     try:
         number = float(value)
     except (TypeError, ValueError):

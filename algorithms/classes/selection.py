@@ -308,7 +308,6 @@ class Selection(ParameterSet):
         return classes
 
     def _of_returns(self, part: PointCloud, unnumbered: np.ndarray) -> np.ndarray:
-        """Return which points are of the chosen returns."""
         if self.returns != "last":
             return np.ones(part.count, dtype=bool)
         # A return number above the number of returns is wrong, but still means a last return.

@@ -79,8 +79,6 @@ def _answer(question: str, *arguments: Any) -> Any:
 
 
 class _Gdal:
-    """Uses osr of GDAL."""
-
     @staticmethod
     def wkt_of_epsg(code: int) -> str | None:
         from osgeo import osr
@@ -147,8 +145,6 @@ def _quiet() -> Iterator[None]:
 
 
 class _Pyproj:
-    """Uses pyproj."""
-
     @staticmethod
     def wkt_of_epsg(code: int) -> str | None:
         from pyproj import CRS

@@ -142,7 +142,6 @@ def _horizontal_unit(keys: GeoKeys, facts: WktFacts, progress: Progress) -> floa
 
 
 def _vertical_of(keys: GeoKeys) -> tuple[float | None, VerticalDatum | None]:
-    """Return the unit and the datum of the heights."""
     code, unit, datum = keys.vertical_epsg, keys.vertical_unit, None
     text = wkt_of_epsg(code) if code else None
     # `read_wkt` needs a horizontal CRS as well.

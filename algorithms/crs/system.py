@@ -99,7 +99,6 @@ def _with_heights(crs: Crs, wkt: str) -> str:
 
 
 def _id(code: int | None, keyword: str) -> str:
-    """Return the EPSG code of a part of well-known text."""
     if code is None:
         return ""
     return f',{keyword}["EPSG",{code}]' if keyword == "ID" else f',{keyword}["EPSG","{code}"]'

@@ -158,7 +158,6 @@ class DiskStore(Store):
 
 
 def _bits(names: Sequence[str]) -> dict[str, int]:
-    """Return the bit of each named flag."""
     return {name: _FIRST_NAMED << number for number, name in enumerate(names)}
 
 

@@ -140,7 +140,8 @@ class FilePoints:
                 yield where, part
                 progress(where.stop / max(self.count, 1))
             return
-        if not is_last and self._may_unpack():
+        is_packed = self.file.is_compressed and self.file.unpacked is None
+        if not is_last and is_packed and has_room(self._target.parent, self.count):
             self._unpack(progress.part(0.0, 0.7))
             progress = progress.part(0.7, 1.0)
         # Reading reports what is wrong with the file only the first time.
@@ -149,13 +150,6 @@ class FilePoints:
         for where, part in numbered(read_parts(self.file, reading)):
             self.cloud = self.cloud or part
             yield where, part
-
-    def _may_unpack(self) -> bool:
-        """Return whether the file is compressed, and the disk has room for its records."""
-        las = self.file
-        if not las.is_compressed or las.unpacked is not None:
-            return False
-        return has_room(self._target.parent, las.count)
 
     def _unpack(self, progress: Progress) -> None:
         """Decompress the file into a temporary one, from which it is read from now on."""
@@ -237,7 +231,6 @@ class TileResult:
         return result
 
     def _add(self, where: slice, part: PointCloud) -> None:
-        """Add the next points of the file."""
         for result, of_step in zip(self.results, self._values):
             before, values = part, of_step.of(where, part)
             part = result.applied(before, values)

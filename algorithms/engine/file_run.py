@@ -100,7 +100,6 @@ class OneFile(Execution):
         return next(ends, len(self.steps))
 
     def _work_group(self, group: slice, progress: Progress, outputs: Outputs) -> None:
-        """Run steps that see the same classes."""
         points = self._points
         works = [Work(step, points.store_for(step)) for step in self.steps[group]]
         reading = points.sparing(progress.part(0.0, 0.08))

@@ -12,6 +12,7 @@ from typing import Collection, Sequence, Union
 from ..core.errors import BareEarthError
 from ..core.progress import Progress
 from ..core.temporary import remove
+from ..core.words import first_of
 from .blockwise import ended
 from .jobs import BlockJob, JobResult, TileJob
 from .memory import GIGABYTE
@@ -21,8 +22,6 @@ from .workers import Running, Workers, scheduler_gone
 AnyJob = Union[BlockJob, TileJob]
 # The time of a point in a block, in proportion to that of reading and writing it.
 _BLOCK_WEIGHT = 2.0
-# Most files that a message names.
-_MOST_NAMES = 3
 _DIED = (
     "The process that worked on it ended unexpectedly, perhaps because memory was short. Allow"
     " fewer threads, or less memory."
@@ -123,7 +122,6 @@ class JobQueue:
         self._workers.restart()
 
     def _end(self, running: Running) -> None:
-        """Record the result of a job."""
         job = self._running[running]
         try:
             outcome = running.future.result()
@@ -222,7 +220,7 @@ class JobQueue:
             first, *more_texts = alike
             more = ""
             if more_texts and of_files:
-                names = _listed([alike[text] for text in more_texts])
+                names = first_of(sorted(alike[text] for text in more_texts))
                 more = f" The same, with other numbers: {names}."
             elif more_texts:
                 parts = (
@@ -244,13 +242,6 @@ class JobQueue:
                 f" {(most.memory or 0) / GIGABYTE:.2f} GB of memory"
                 f" ({most.planned / GIGABYTE:.2f} GB planned)."
             )
-
-
-def _listed(names: Sequence[str]) -> str:
-    """Return the first names, and how many more there are."""
-    shown = ", ".join(sorted(names)[:_MOST_NAMES])
-    more = len(names) - _MOST_NAMES
-    return f"{shown} and {more:,} more" if more > 0 else shown
 
 
 def _without_numbers(text: str) -> str:

@@ -8,7 +8,7 @@ import hashlib
 import json
 import os
 from pathlib import Path
-from typing import Any, Dict, Iterable, List, Sequence, Union
+from typing import Any, Dict, Iterable, List, Mapping, Sequence, Union
 
 from ..core.errors import BareEarthError
 from ..core.files import replacing
@@ -93,7 +93,7 @@ def _settings(grids: Sequence[BlockGrid]) -> list[dict[str, object]]:
     ]
 
 
-def write_record(target: Path, fingerprint: Fingerprint, summary: dict[str, Any]) -> None:
+def write_record(target: Path, fingerprint: Fingerprint, summary: Mapping[str, object]) -> None:
     """Write the record of an output after the output; the fingerprint is from before its inputs
     were read.
     """

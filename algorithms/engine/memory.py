@@ -150,7 +150,6 @@ class PeakMemory:
 
 
 def _own(name: str) -> int | None:
-    """Return a figure of this process in bytes."""
     for line in _lines(_STATUS):
         if line.startswith(f"{name}:"):
             return int(line.split()[1]) * 1024

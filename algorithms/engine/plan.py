@@ -155,7 +155,6 @@ class Plan:
         return [self.block(step, place) for step in steps for place in self.places_of(tile, step)]
 
     def _inputs_of(self, tile: LasFile) -> list[Path]:
-        """Return the files that affect the output of a file."""
         together = tuple(self._wanted(tile))
         if together not in self._inputs:
             self._inputs[together] = sorted(set().union(*(block.inputs for block in together)))

@@ -134,7 +134,6 @@ class ManyFiles(Execution):
     def _run(
         self, plan: Plan, folder: Path, waiting: Path, workers: Workers, progress: Progress
     ) -> None:
-        """Run the jobs of a plan, and then the sinks."""
         kept = plan.files_kept() if self._sinks else []
         unpacking = _unpacking(waiting, self._survey, workers, is_whole=True)
         blocks, tiles = plan.jobs(workers, folder, unpacking)

@@ -54,7 +54,6 @@ def check_own(
 
 
 def _check_stems(survey: Survey) -> None:
-    """Refuse files whose rasters would get the same name."""
     stems: dict[str, Path] = {}
     for tile in survey.tiles:
         stem = split_name(tile.path)[0]

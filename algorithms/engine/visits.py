@@ -125,7 +125,6 @@ def _visited(
     resources: Resources,
     is_wanted: Callable[[Block], bool] | None,
 ) -> list[Any]:
-    """Let steps with equal blocks work; see `visited`."""
     todo: dict[Block, dict[int, Visit]] = defaultdict(dict)
     for number, work in enumerate(works):
         blocks, store = work.step.blocks, work.store

@@ -189,7 +189,6 @@ _common: _OfProcess | None = None
 
 
 def _begin(stop: threading.Event, free: Counter, threads: int, names: Keywords) -> None:
-    """Prepare a new process."""
     global _common
     _common = _OfProcess(stop, SharedThreads(free))
     share_one_heap()

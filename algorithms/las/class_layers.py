@@ -151,7 +151,6 @@ def _new_layers(
     classes: np.ndarray,
     chunks: Sequence[slice],
 ) -> Iterator[memoryview]:
-    """Yield the layer of classes of each chunk."""
     head = ChunkHead(RECORD_LENGTHS[_FORMAT], LAYERS[POINT_14])
     points = np.zeros((len(classes), head.record_length), dtype=np.uint8)
     is_only = (return_number == 1) & (number_of_returns <= 1)

@@ -241,7 +241,6 @@ def _multiple(value: float, scale: float) -> tuple[float, float]:
 
 
 def _picked(columns: Sequence[np.ndarray], indices: np.ndarray | slice) -> list[np.ndarray]:
-    """Return the values of columns at some indices."""
     if isinstance(indices, np.ndarray):
         first, last = int(indices.min()), int(indices.max())
         # If indices are close together, all values between them are copied first.

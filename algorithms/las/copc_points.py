@@ -103,7 +103,6 @@ class WaitingPoints:
         return records
 
     def _read(self, groups: np.ndarray) -> Iterator[np.ndarray]:
-        """Yield points in file order, part by part."""
         file, width = self._room.file, self._width
         for begin, counts in self._parts:
             rows, done = np.empty((counts[groups].sum(), width), dtype=np.uint8), 0

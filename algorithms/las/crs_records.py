@@ -103,7 +103,6 @@ def _stated(
     prefers_text: bool,
     library: object,
 ) -> tuple[Crs | None, tuple[tuple[str, str], ...]]:
-    """Return the CRS from records, with messages about it."""
     notes = Notes()
     every = [text_of(data) for data in (*texts, *others)]
     geokeys = read_geokeys(*keys)

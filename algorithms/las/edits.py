@@ -105,7 +105,6 @@ class EditedFile:
             check_class(self.source.path, self.source.point_format, largest, "the ground")
 
     def _classes(self, records: np.ndarray, part: slice) -> np.ndarray:
-        """Return the new classes of records, which are the points of `part`."""
         if self._changes.classification is not None:
             return self._changes.classification[part]
         return np.asarray(named(self.target, records)["classification"])

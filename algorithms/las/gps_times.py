@@ -41,7 +41,6 @@ def are_impossible(layout: LasFile, data: bytes | bytearray, start: int) -> bool
 
 
 def _layers(layout: LasFile, file: BinaryIO) -> Iterator[bytes]:
-    """Yield the layer of the GPS times of each chunk."""
     head, place = layout.chunk_head, layout.points_start + 8
     for _, size in layout.chunk_table:
         if size:

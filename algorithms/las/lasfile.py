@@ -190,9 +190,7 @@ class LasFile:
 
     @property
     def states_extent(self) -> bool:
-        """Whether the integers of points can reach the x and y of the extent in the header, and its
-        heights are finite.
-        """
+        """Whether integers of points can have the extent in the header, with finite heights."""
         corners = self.minimum, self.maximum
         return all(math.isfinite(corner[2]) for corner in corners) and all(
             abs(corner[axis] - self.offset[axis]) <= _MOST_STEPS * self.scale[axis]

@@ -89,7 +89,6 @@ def _read_header(path: Path, file: BinaryIO, size: int) -> bytes:
 
 
 def _split_vlrs(block: bytes, count: int) -> tuple[tuple[Vlr, ...], bytes]:
-    """Split the bytes between header and points into VLRs and padding."""
     # The list ends at a record that does not fit, or if there are fewer records than announced. The
     # points can be read in spite of this.
     vlrs: list[Vlr] = []
@@ -150,7 +149,9 @@ def _check_points(layout: LasFile, file: BinaryIO) -> None:
     if layout.extra_bytes < 0 or not is_sound:
         raise BareEarthError(f"The header of {path} is damaged. Copy or download it again.")
     if layout.count == 0:
-        if _bytes_of_points(layout) > _MOST_WITHOUT_POINTS + layout.record_length:
+        end_of_points = min([layout.size, *(evlr.start for evlr in layout.evlrs)])
+        most = _MOST_WITHOUT_POINTS + layout.record_length
+        if end_of_points - layout.points_start > most:
             raise BareEarthError(
                 f"{path} was not written to its end: it holds no points by its header, but bytes of"
                 " some. Write it again."
@@ -160,11 +161,6 @@ def _check_points(layout: LasFile, file: BinaryIO) -> None:
         _check_compressed(layout, file)
     elif layout.points_end > layout.size:
         raise damaged(path)
-
-
-def _bytes_of_points(layout: LasFile) -> int:
-    """Return the bytes between the records before and behind the points."""
-    return min([layout.size, *(evlr.start for evlr in layout.evlrs)]) - layout.points_start
 
 
 def _check_compressed(layout: LasFile, file: BinaryIO) -> None:

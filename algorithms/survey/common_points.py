@@ -73,7 +73,6 @@ def match_files(first: Path, second: Path, progress: Progress, crs: str | None =
 
 
 def _is_same_order(first: PointCloud, second: PointCloud) -> bool:
-    """Return whether two clouds have the same points in the same order."""
     if not (np.allclose(first.scale, second.scale) and np.allclose(first.offset, second.offset)):
         return False
     names = ("x", "y", "z", "return_number")

@@ -7,10 +7,8 @@ from typing import Sequence
 
 from ..core.files import split_name
 from ..core.progress import Progress
+from ..core.words import first_of
 from ..las.lasfile import LasFile
-
-# Most names in a sentence.
-_MOST_NAMES = 3
 
 
 def copies_in(tiles: Sequence[LasFile], are_named: Sequence[bool], progress: Progress) -> set[Path]:
@@ -28,11 +26,10 @@ def copies_in(tiles: Sequence[LasFile], are_named: Sequence[bool], progress: Pro
         if original is not tile and not is_named:
             copies[tile.path] = original.path.name
     if copies:
-        shown = [f"{path.name} (as {copies[path]})" for path in sorted(copies)[:_MOST_NAMES]]
-        more = f" and {len(copies) - len(shown)} more" if len(copies) > len(shown) else ""
+        names = first_of([f"{path.name} (as {copies[path]})" for path in sorted(copies)])
         progress.info(
-            f"Left out, since a file of the same name holds the same points: {', '.join(shown)}"
-            f"{more}. To use one of them, give the file itself."
+            f"Left out, since a file of the same name holds the same points: {names}. To use one of"
+            " them, give the file itself."
         )
     return set(copies)
 

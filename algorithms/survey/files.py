@@ -14,8 +14,7 @@ import numpy as np
 from ..core.errors import BareEarthError
 from ..core.points import Box, box_round
 from ..core.progress import SILENT, Notes, Progress
-from ..crs.matching import described, has_same_units, is_other_datum, is_same_crs, is_same_map
-from ..crs.stated import how_to_state, stated_wkt
+from ..crs.stated import stated_wkt
 from ..crs.system import Crs
 from ..las.cloud import PointCloud
 from ..las.crs_records import read_crs
@@ -23,6 +22,7 @@ from ..las.lasfile import LasFile
 from ..las.opening import NoPoints, open_las
 from ..las.reading import read_parts
 from ..las.sources import read_text
+from .common_crs import common_crs, names_of
 from .copies import copies_in, tell_of_twins
 from .overview import is_overview
 from .shapes import Place
@@ -33,8 +33,6 @@ from .vpc import no_extent, read_vpc
 Sources = Union[str, Path, Iterable[Union[str, Path]]]
 _CLOUDS = (".las", ".laz")
 _LISTS = (".txt", ".lst", ".list")
-# Most names in a sentence. It gives the number of the others.
-_MOST_NAMES = 3
 
 
 class Inputs(Tuple[Path, ...]):
@@ -159,7 +157,7 @@ def open_survey(sources: Sources, progress: Progress = SILENT) -> Survey:
         progress(number / len(paths))
     if empty:
         hold = "holds" if len(empty) == 1 else "hold"
-        progress.warning(f"{_names(empty)} {hold} no points.")
+        progress.warning(f"{names_of(empty)} {hold} no points.")
     if not tiles and not broken:
         raise NoPoints("None of the files holds a point. Give files that have some.", tuple(empty))
     if not tiles:
@@ -172,7 +170,7 @@ def open_survey(sources: Sources, progress: Progress = SILENT) -> Survey:
     copies = copies_in(tiles, [_key(tile.path) in named for tile in tiles], progress)
     pairs = [pair for pair in zip(tiles, systems) if pair[0].path not in copies]
     tiles, systems = (list(column) for column in zip(*pairs))
-    crs = _common_crs(tiles, systems, progress)
+    crs = common_crs(tiles, systems, progress)
     tell_of_twins(tiles, progress)
     return Survey(tuple(tiles), tuple(broken), crs, stated, tuple(empty))
 
@@ -206,7 +204,6 @@ def _key(path: Path) -> str:
 
 
 def _expand(source: Path, recursive: bool, progress: Progress) -> Iterator[Path]:
-    """Yield the files of a source."""
     suffix = source.suffix.lower()
     if source.is_dir():
         for path in source.rglob("*") if recursive else source.iterdir():
@@ -270,7 +267,7 @@ def _listed(source: Path) -> list[Path]:
 
 def _crs_of(layout: LasFile, notes: Notes) -> Crs:
     """Return the CRS of a file, and note what is wrong with a stated one."""
-    # `_common_crs` warns of files that state none.
+    # `common_crs` warns of files that state none.
     crs = read_crs(layout)
     if crs != Crs():
         read_crs(layout, notes)
@@ -283,72 +280,6 @@ def _check_extent(layout: LasFile) -> None:
     is_one = layout.states_extent and lowest[0] <= highest[0] and lowest[1] <= highest[1]
     if not is_one or (lowest == highest and layout.count > 1):
         raise no_extent(layout)
-
-
-def _common_crs(tiles: list[LasFile], stated: list[Crs], progress: Progress) -> Crs:
-    """Return the common CRS of all tiles; refuse tiles that differ in their CRS."""
-    groups: dict[Crs, list[LasFile]] = {}
-    # CRS with a vertical datum come first, since a CRS without one is equal to any of them.
-    for tile, crs in sorted(zip(tiles, stated), key=lambda pair: pair[1].datum is None):
-        same = next((group for group in groups if is_same_crs(group, crs)), crs)
-        groups.setdefault(same, []).append(tile)
-    known, unstated = [crs for crs in groups if crs != Crs()], groups.get(Crs(), [])
-    # For one file, the same words as when it is read.
-    say, their = ("do not say", "their") if len(unstated) > 1 else ("does not say", "its")
-    lack = f"{_names(unstated)} {say} {their} CRS:"
-    if not known:
-        progress.warning(
-            f"{lack} {their} coordinates are taken as metres. If they are not, give the CRS:"
-            f" {how_to_state()}."
-        )
-        return Crs()
-    if len(known) > 1 or (unstated and not has_same_units(known[0], Crs())):
-        problem, hint = "The files are not in the same CRS", f"{how_to_state()}."
-        if not unstated and all(is_same_map(known[0], crs) for crs in known[1:]):
-            problem = "The heights of the files are not in the same unit or above the same datum"
-            hint = f"{how_to_state()}, or with heights, such as EPSG:25832+7837."
-        raise BareEarthError(
-            f"{problem}: "
-            + "; ".join(f"{described(crs)}: {_names(members)}" for crs, members in groups.items())
-            + ". Reproject them to one CRS, or work on each group alone. If they are in one CRS all"
-            f" the same, give it: {hint}"
-        )
-    if unstated:
-        progress.warning(f"{lack} that of the others is used, {known[0].name}.")
-    _tell_of_datums(tiles, stated, known[0], progress)
-    return known[0]
-
-
-def _tell_of_datums(
-    tiles: list[LasFile], stated: list[Crs], common: Crs, progress: Progress
-) -> None:
-    """Report vertical datums that may differ, and files that state none."""
-    if common.datum is None:
-        return
-    others: dict[str, list[LasFile]] = {}
-    for tile, crs in zip(tiles, stated):
-        if crs != Crs() and is_other_datum(crs.datum, common.datum) is None:
-            others.setdefault(crs.datum.crs if crs.datum else "", []).append(tile)
-    silent = others.pop("", [])
-    if silent:
-        text = f"No vertical datum is stated by {_names(silent)}: that of the others is used,"
-        if common.datum.is_ellipsoid:
-            # Heights above the sea differ from heights above the ellipsoid by up to 100 m.
-            progress.warning(f"{text} {common.datum.crs}. Check that their heights fit together.")
-        else:
-            progress.info(f"{text} {common.datum.crs}.")
-    if others:
-        progress.warning(
-            f"The vertical datum of most files is {common.datum.crs}; others name it"
-            + "; ".join(f" {name}: {_names(members)}" for name, members in others.items())
-            + ". Their heights are used as they are: check that they fit together."
-        )
-
-
-def _names(tiles: list[LasFile]) -> str:
-    names = ", ".join(tile.path.name for tile in tiles[:_MOST_NAMES])
-    more = len(tiles) - _MOST_NAMES
-    return f"{names} and {more} more" if more > 0 else names
 
 
 def _tell(notes: Notes, progress: Progress) -> None:

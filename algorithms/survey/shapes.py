@@ -95,7 +95,6 @@ def outside(words: str, bounds: Box, of: str, box: Box, near: float | None = Non
 
 
 def _in_crs(shapes: Shapes, place: Place, progress: Progress) -> tuple[Any, ...]:
-    """Return the shapes of a file in the CRS of the points."""
     stated, target = shapes.crs, place.crs
     is_guess = stated is None and _are_degrees(shapes) and not _is_in_degrees(place.box)
     if stated is None and not is_guess:

@@ -62,7 +62,9 @@ def read_boundary(source: object, may_be_empty: bool = False) -> tuple[Polygon, 
 
 def read_polygons_with_classes(source: object) -> tuple[Shapes, tuple[Any, ...]]:
     """Read the polygons of a source with their classes, and no other geometries."""
-    pairs = _shapes(source, "Polygon", _polygon_with_class)
+    pairs = _shapes(
+        source, "Polygon", lambda rings, values: (_polygon(rings), values.get(CLASS_FIELD))
+    )
     polygons, classes = zip(*pairs)
     return Shapes(polygons, pairs.crs, pairs.source), classes
 
@@ -191,10 +193,6 @@ def _polygon(rings: Any, columns: int = 2) -> Polygon:
 
 def _polygon_with_heights(rings: Any, _: _Attributes) -> Polygon:
     return _polygon(rings, 3)
-
-
-def _polygon_with_class(rings: Any, attributes: _Attributes) -> tuple[Polygon, Any]:
-    return _polygon(rings), attributes.get(CLASS_FIELD)
 
 
 def _line(corners: Any) -> np.ndarray:

@@ -141,7 +141,6 @@ def _by_gdal(name: str, attribute: str | None) -> Iterator[_Layer]:
 
 
 def _of_kind(layer: _Layer, kind: str) -> Iterator[tuple[Any, dict[str, Any]]]:
-    """Yield coordinates and attributes of the geometries of a kind in a layer."""
     for data, attributes in layer.features:
         for name, coordinates in geometries_of(data) if data else ():
             if name == kind:

@@ -249,7 +249,7 @@ def no_extent(layout: LasFile) -> BareEarthError:
     )
 
 
-def _polygon(ring: np.ndarray) -> dict[str, Any]:
+def _polygon(ring: np.ndarray) -> dict[str, object]:
     return {"type": "Polygon", "coordinates": [ring.tolist()]}
 
 

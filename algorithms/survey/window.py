@@ -122,7 +122,6 @@ def _in_file(
 
 
 def _leaves_header(layout: LasFile, part: PointCloud) -> bool:
-    """Return whether a point lies outside of the extent in the header."""
     for axis, integers in enumerate(zip(part.lowest, part.highest)):
         scale, offset = layout.scale[axis], layout.offset[axis]
         lowest, highest = (integer * scale + offset for integer in integers)
@@ -146,7 +145,6 @@ def are_inside(layout: LasFile, area: Area, x: np.ndarray, y: np.ndarray) -> np.
 
 
 def _chosen(layout: LasFile, area: Area, parts: Iterator[PointCloud]) -> Iterator[PointCloud]:
-    """Yield the points of parts that lie in an area."""
     for part in parts:
         corners = np.array([part.lowest, part.highest]).T if part.count else np.zeros((2, 0))
         if not are_inside(layout, area, *corners).all():
