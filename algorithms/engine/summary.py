@@ -70,7 +70,7 @@ class SurveySummary(RunSummary):
     # Why the other files could not be processed, by path.
     failures: Mapping[str, str] = field(default_factory=dict)
     vpc: str = ""  # the virtual point cloud of the finished files
-    tiles: tuple[TileSummary, ...] = field(default=(), repr=False)  # of the finished files
+    tiles: tuple[Any, ...] = field(default=(), repr=False)  # of the finished files
     jobs: tuple[JobCost, ...] = field(default=(), repr=False)
 
     @property
