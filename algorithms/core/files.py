@@ -262,12 +262,12 @@ def new_folder(path: Path) -> Iterator[Path]:
 
 
 @contextlib.contextmanager
-def temporary_folder(beside: Path) -> Iterator[Path]:
-    """Yield a new folder inside `beside`, which is removed with its contents when the block ends;
+def temporary_folder(parent: Path) -> Iterator[Path]:
+    """Yield a new folder inside `parent`, which is removed with its contents when the block ends;
     if the process is killed, `remove_leftovers` does so later.
     """
-    with write_errors_told(beside):
-        folder = make_temporary_folder(beside)
+    with write_errors_told(parent):
+        folder = make_temporary_folder(parent)
     try:
         yield folder
     finally:

@@ -72,8 +72,8 @@ def make_temporary(target: Path, mode: int | None = None) -> Path:
     """
     # Libraries choose the format by the ending. An existing file is never used: another user could
     # have put a link there.
-    found = _ENDING.search(target.name)
-    ending = found[0] if found else ""
+    match = _ENDING.search(target.name)
+    ending = match[0] if match else ""
     flags = os.O_CREAT | os.O_EXCL | os.O_WRONLY
     permissions = 0o666 if mode is None else mode | 0o600
 
@@ -83,14 +83,14 @@ def make_temporary(target: Path, mode: int | None = None) -> Path:
     return _make_marked(target.parent, ending, shown(target.name), make)
 
 
-def make_temporary_folder(beside: Path) -> Path:
-    """Make a folder in `beside`, or, if this is in a temporary folder, beside the latter."""
+def make_temporary_folder(parent: Path) -> Path:
+    """Make a folder in `parent`, or, if this is in a temporary folder, beside the latter."""
     # Paths in nested temporary folders would become too long.
-    for folder in reversed((beside, *beside.parents)):
+    for folder in reversed((parent, *parent.parents)):
         if _TEMPORARY.fullmatch(folder.name):
-            beside = folder.parent
+            parent = folder.parent
             break
-    return _make_marked(beside, "", "", lambda path: path.mkdir(mode=0o700))
+    return _make_marked(parent, "", "", lambda path: path.mkdir(mode=0o700))
 
 
 def _make_marked(folder: Path, ending: str, name: str, make: Callable[[Path], object]) -> Path:
@@ -148,8 +148,8 @@ def remove_leftovers(folder: Path, processes: Container[int] | None = None) -> N
     if not folder.is_dir():
         return
     with os.scandir(folder) as entries:
-        found = [(entry, _TEMPORARY.fullmatch(entry.name)) for entry in entries]
-    for entry, marks in found:
+        matches = [(entry, _TEMPORARY.fullmatch(entry.name)) for entry in entries]
+    for entry, marks in matches:
         if marks and (processes is None or int(marks[3], 36) in processes):
             with contextlib.suppress(OSError):
                 if _is_left(entry, marks):
@@ -198,9 +198,9 @@ def shown(path: object) -> str:
     return _IN_A_PATH.sub(_known, str(path))
 
 
-def _known(found: re.Match[str]) -> str:
-    (name,), separator = _written_now.get(found[1], [""]), found[4]
+def _known(match: re.Match[str]) -> str:
+    (name,), separator = _written_now.get(match[1], [""]), match[4]
     if name:
         return name + separator
     # A temporary folder is left out of the path. A file of another process keeps its name.
-    return "" if separator else found[0]
+    return "" if separator else match[0]

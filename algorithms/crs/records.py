@@ -33,15 +33,15 @@ def crs_of_records(
     """
     # Facts that the preferred record does not state, such as the unit of heights, come from the
     # other records.
-    found = [_Statement(_TEXT, text, facts) for text in texts if (facts := read_wkt(text))]
-    found[1:] = [statement._replace(kind=f"other {_TEXT}") for statement in found[1:]]
+    statements = [_Statement(_TEXT, text, facts) for text in texts if (facts := read_wkt(text))]
+    statements[1:] = [statement._replace(kind=f"other {_TEXT}") for statement in statements[1:]]
     if keys is not None:
         stated = _statement_of(keys, progress)
-        found = [*found, stated] if prefers_text else [stated, *found]
-    if not found:
+        statements = [*statements, stated] if prefers_text else [stated, *statements]
+    if not statements:
         return None
-    whole = found[0]
-    for further in found[1:]:
+    whole = statements[0]
+    for further in statements[1:]:
         whole = _joined(whole, further, progress)
     return crs_of_facts(whole.wkt, whole.facts, progress)
 

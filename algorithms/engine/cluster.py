@@ -47,14 +47,14 @@ class _Facts(NamedTuple):
 
 
 class Cluster(Workers):
-    """The workers of a running Dask scheduler, with an address such as ``tcp://host:8786``; a job
-    has `memory` of the resources, and `patience` seconds may pass without workers.
+    """The workers of a running Dask scheduler, with an address such as ``tcp://host:8786``; raises
+    an error after `patience` seconds without workers.
     """
 
     # The workers need the same version of this package, and the same folders under the same names.
     # Each thread of a worker runs one job at a time. If a worker dies, another one does its jobs.
-    # Without a limit a job has half of the memory that is free there, divided by the threads of the
-    # worker.
+    # A job may use the memory of the resources; if these have no limit, half of the free memory of
+    # its computer, divided by the threads there.
 
     are_local = False
 
@@ -65,13 +65,13 @@ class Cluster(Workers):
         super().__init__(resources)
         self._address, self._patience = address, patience
         self._looked = self._seen = 0.0
-        # A file that exists as long as the run. When it is gone, the jobs end.
+        # A file that exists while the run is active. When it is removed, the jobs end.
         self._mark: Path | None = None
         self._client: Any = None  # of Dask; it is there between `start` and `stop`
         self._pool: Any = None
 
     def start(self, folder: Path, least: int, blocks: int, tiles: int) -> None:
-        """Connect, and refuse no scheduler, no worker, or one that lacks what it needs."""
+        """Connect; raise an error if there is no scheduler or worker, or a worker is unsuitable."""
         from distributed import Client
 
         _check_encryption(self._address)
@@ -112,7 +112,7 @@ class Cluster(Workers):
         return max(1, _AHEAD * sum(self._threads().values()))
 
     def _threads(self) -> dict[str, int]:
-        """Return how many threads each worker has, or refuse a scheduler that is silent."""
+        """Return the number of threads of each worker; raise an error without a scheduler."""
         client = self._client
         try:
             return client.sync(client.scheduler.ncores, callback_timeout=_ANSWERING)
@@ -120,7 +120,7 @@ class Cluster(Workers):
             raise BareEarthError(scheduler_gone()) from error
 
     def _check(self, folder: Path) -> dict[str, _Facts]:
-        """Return what the workers report about themselves; refuse workers that lack something."""
+        """Return what the workers report about themselves; refuse unsuitable workers."""
         from ..core.version import __version__
 
         install = f"Install bare-earth {__version__} there."
@@ -137,19 +137,19 @@ class Cluster(Workers):
                 f"The scheduler {self._address} has no workers. Start some with 'dask worker"
                 f" {self._address}'."
             )
-        for address, found in facts.items():
-            if isinstance(found, OSError):  # it has just ended
+        for address, of_worker in facts.items():
+            if isinstance(of_worker, OSError):  # it has just ended
                 raise BareEarthError(f"The worker {address} does not answer. Run it again.")
-            if not isinstance(found, _Facts):
+            if not isinstance(of_worker, _Facts):
                 raise BareEarthError(
-                    f"The worker {address} cannot load this package ({found}). {install}"
+                    f"The worker {address} cannot load this package ({of_worker}). {install}"
                 )
-            if found.version != __version__:
+            if of_worker.version != __version__:
                 raise BareEarthError(
-                    f"The worker {address} has version {found.version} of bare-earth, and this"
+                    f"The worker {address} has version {of_worker.version} of bare-earth, and this"
                     f" computer {__version__}. Install the same version on all."
                 )
-            if not found.sees_folder:
+            if not of_worker.sees_folder:
                 raise BareEarthError(
                     f"The worker {address} does not see {folder}. Put inputs and outputs into a"
                     " folder that all computers have under the same name."
@@ -169,7 +169,7 @@ class Cluster(Workers):
         return Running(future, JobProgress(threading.Event()))
 
     def check(self) -> None:
-        """Now and then, raise an error if the scheduler is gone or had no workers for too long."""
+        """Raise an error if the scheduler is gone, or had no workers for too long."""
         now = time.monotonic()
         if now - self._looked < _LOOKING:
             return
@@ -195,7 +195,7 @@ class Cluster(Workers):
 
 def _check_encryption(address: str) -> None:
     """Refuse an address for which the configuration of Dask on this computer has no keys."""
-    # Dask itself raises various errors then, and leaves threads that never end.
+    # Without keys Dask raises various errors, and leaves threads that never end.
     from distributed.security import Security
 
     problem = f"The scheduler {address} cannot be reached"
@@ -215,7 +215,7 @@ def _check_encryption(address: str) -> None:
 
 
 def _marked(folder: Path) -> Path:
-    """Make the file that shows that the run is active."""
+    """Make the file that exists while the run is active."""
     with write_errors_told(folder):
         return make_temporary(folder / "run")
 
@@ -229,7 +229,7 @@ def _facts(marker: str) -> _Facts:
 
 
 class _Listening(Progress):
-    """Ends a job when its run has ended or was killed, so that it does not disturb the next run."""
+    """Ends a job after its run has ended or was killed, so that the next run is not disturbed."""
 
     def __init__(self, mark: str) -> None:
         self._mark, self._looked = mark, 0.0

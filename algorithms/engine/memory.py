@@ -16,15 +16,15 @@ from ..core.threads import available_cpus
 GIGABYTE = 1 << 30
 _UNKNOWN = 4 * GIGABYTE
 _SHARE = 0.5
-# Seconds of processor time after which freed memory is given back if memory is short: on a busy
-# machine not more often than on others, as it must be cleared again before it is used.
+# Seconds of processor time after which freed memory is given back if memory is short. Memory must
+# be cleared before it is used again, so this is not done more often on a busy machine.
 _SECONDS = 0.4
 _MEMINFO = Path("/proc/meminfo")
 _STATUS = Path("/proc/self/status")
 _CLEAR = Path("/proc/self/clear_refs")
 _CGROUP = Path("/sys/fs/cgroup")
-# Options of `mallopt` in malloc.h: one heap, in which arrays up to 128 MB lie, and of which as much
-# may stay free at its end.
+# Options of `mallopt` in malloc.h: one heap, arrays of up to 128 MB in the heap, and up to 128 MB
+# of free memory at its end.
 _HEAP = (-8, 1), (-3, 1 << 27), (-1, 1 << 27)
 
 
@@ -78,8 +78,8 @@ class Resources(ParameterSet):
 
 
 class Cost(NamedTuple):
-    """Bytes of memory that a step takes for the points and the area of a block with its buffer; by
-    default those of the filters.
+    """Bytes of memory that a step takes per point and per square metre of a block with its buffer;
+    by default those of the filters.
     """
 
     a_point: float = 80.0
@@ -96,8 +96,8 @@ def _of_c(name: str) -> Callable[..., int] | None:
 
 
 def share_one_heap() -> None:
-    """Let all threads of this process, which is ours, take memory from one heap of glibc."""
-    # Otherwise there is one for each thread, and each keeps what was freed in it.
+    """Let all threads of this process, which runs only our jobs, use one heap of glibc."""
+    # Otherwise each thread has a heap of its own, which keeps the memory that was freed in it.
     mallopt = _of_c("mallopt")
     if mallopt is not None:
         for option in _HEAP:
@@ -112,8 +112,8 @@ def give_back() -> None:
 
 
 class GivingBack(PassingOn):
-    """Passes on progress, and now and then gives freed memory back to the system and calls `also`,
-    which gives up other memory.
+    """Passes on progress, and at intervals gives freed memory back to the system and calls `also`,
+    which frees other memory.
     """
 
     def __init__(self, whole: Progress, also: Callable[[], None] | None = None) -> None:
@@ -131,7 +131,7 @@ class GivingBack(PassingOn):
 
 
 class PeakMemory:
-    """Measures how much memory this process takes from now on, where Linux tells it."""
+    """Measures how much memory this process takes from now on, in Linux."""
 
     def __init__(self) -> None:
         self._begun = _own("VmRSS")
@@ -142,7 +142,7 @@ class PeakMemory:
             self._begun = None
 
     def end(self) -> int | None:
-        """Return the bytes that were taken at most, beside those at the beginning."""
+        """Return the largest number of bytes that were taken in addition to those at the start."""
         peak = _own("VmHWM")
         if self._begun is None or peak is None:
             return None
@@ -157,7 +157,7 @@ def _own(name: str) -> int | None:
 
 
 def free_memory() -> int:
-    """Return the bytes of free memory; 4 GB if the system does not tell."""
+    """Return the bytes of free memory; 4 GB if this is not known."""
     free = _FREE.get(sys.platform, _linux_free)()
     limits = [_cgroup_free(), _UNKNOWN if free is None else free]
     return min(limit for limit in limits if limit is not None)
@@ -174,7 +174,7 @@ def _linux_free() -> int | None:
 
 
 def _mac_free() -> int | None:
-    """Return what is free or was not used lately, which macOS counts in pages."""
+    """Return the bytes of pages that are free or were not used recently."""
     import ctypes
 
     system = ctypes.CDLL(None)
@@ -192,7 +192,7 @@ def _cgroup_free() -> int | None:
     limit, used = _lines(_CGROUP / "memory.max"), _lines(_CGROUP / "memory.current")
     if not limit or not used or not limit[0].isdigit():
         return None
-    # Of what is used, the system gives up the cache of files that nobody has read lately.
+    # The system can free used memory that caches files which were not read recently.
     lines = _lines(_CGROUP / "memory.stat")
     cached = [int(line.split()[1]) for line in lines if line.startswith("inactive_file ")]
     return max(int(limit[0]) - int(used[0]) + sum(cached), 0)

@@ -30,7 +30,7 @@ from .plan import Plan, Results
 from .sinks import run_sink
 from .step import PointStep, Sink, placed
 from .summary import SurveySummary
-from .targets import check_own, check_survey, targets_of
+from .targets import check_step_outputs, check_survey, targets_of
 from .unpacking import Unpacking
 from .workers import Threads, Workers
 
@@ -75,8 +75,8 @@ class ManyFiles(Execution):
         self._sinks = [step for step in steps if isinstance(step, Sink)]
         for step in steps:
             step.check_survey(survey.box, steps)
-        own = [output for step in self._sinks for output in step.outputs]
-        check_own(own, survey, others, self.target)
+        outputs = [output for step in self._sinks for output in step.outputs]
+        check_step_outputs(outputs, survey, others, self.target)
         self._inputs = {tile.path.name: tile.path for tile in survey.tiles}
         # The paths of files that cannot be processed, with the reasons, by the names of the files.
         self._failures = {tile.path.name: (tile.path, tile.reason) for tile in survey.broken}

@@ -20,35 +20,36 @@ def check_survey(survey: Survey, folder: Path, vpc: Path, searched: Sequence[Pat
     if folder.exists() and not folder.is_dir():
         raise BareEarthError(f"Cannot write into {folder}: it is a file. Give a folder.")
     check_outputs([("folder", folder)])
-    here = folder.resolve()
+    output_folder = folder.resolve()
     for path in _paths(survey):
-        if path.parent.resolve() == here:
+        if path.parent.resolve() == output_folder:
             raise BareEarthError(
                 f"Input and output are in the same folder, {folder}. Choose another output."
             )
     for source in filter(Path.is_dir, searched):
-        if source.resolve() in here.parents:
+        if source.resolve() in output_folder.parents:
             raise BareEarthError(
                 f"The output {folder} is in the folder {source}, which is searched for inputs with"
                 " all its subfolders. Choose another output."
             )
     check_vpc(vpc)
     check_free(vpc)
-    if vpc.parent.resolve() != here:
+    if vpc.parent.resolve() != output_folder:
         check_output(vpc)
 
 
-def check_own(
+def check_step_outputs(
     outputs: Sequence[tuple[str, Path]],
     survey: Survey,
     others: Sequence[Path],
     folder: Path | None = None,
 ) -> None:
-    """Refuse outputs of steps that could not be written, or are among others; the folder of the
-    points may not be there yet.
+    """Refuse outputs of steps, given as kinds and paths, that could not be written, or that are
+    among `others`; the folder of the points need not exist yet.
     """
     is_made = folder is not None and not folder.exists()
-    check_outputs([own for own in outputs if not (is_made and own[1].parent == folder)], others)
+    wanted = [output for output in outputs if not (is_made and output[1].parent == folder)]
+    check_outputs(wanted, others)
     if any(kind == "raster set" for kind, _ in outputs):
         _check_stems(survey)
 

@@ -1,4 +1,4 @@
-"""Lets the jobs of a run read compressed files uncompressed, after the first has unpacked them."""
+"""Unpacks compressed files, so that the jobs of a run decompress each file only once."""
 
 from __future__ import annotations
 
@@ -21,8 +21,8 @@ class Unpacking(NamedTuple):
     """Where the records of compressed files wait uncompressed, for all local jobs of a run."""
 
     folder: Path  # exists, and is removed when the run ends
-    is_whole: bool  # whole records, for writing, or only what a cloud holds
-    # files that are read only once more, so that unpacking them would be in vain
+    is_whole: bool  # whole records, for writing, or only the columns of a cloud
+    # Files that are read only once more, which are not unpacked.
     once: frozenset[Path] = frozenset()
 
     def of(self, las: LasFile, progress: Progress) -> LasFile:
@@ -39,6 +39,6 @@ class Unpacking(NamedTuple):
                 try:
                     with replacing(path) as temporary, temporary.open("w+b") as file:
                         unpack(las, file, columns, progress)
-                except BareEarthError:  # a damaged file is told when it is read
+                except BareEarthError:  # a damaged file is reported when it is read
                     return las
         return dataclasses.replace(las, unpacked=Unpacked(path, columns))

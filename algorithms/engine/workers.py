@@ -31,14 +31,14 @@ def scheduler_gone() -> str:
 
 
 class Running(NamedTuple):
-    """A running job: the future of its `JobResult`, and its progress, if that is known."""
+    """A running job, with the future of its `JobResult` and its progress."""
 
     future: Future[JobResult]
     progress: JobProgress
 
 
 class Workers:
-    """Base of the workers, with threads and memory for all of them together."""
+    """Base of the workers, which share threads and memory."""
 
     are_local = True  # on this computer
     # How many jobs can run at the same time at most.
@@ -49,8 +49,8 @@ class Workers:
         self.at_once, self.share = 1, Resources.of(1, 0)  # of each job
 
     def start(self, folder: Path, least: int, blocks: int, tiles: int) -> None:
-        """Prepare for jobs of which the largest needs `least` bytes, on numbers of blocks and
-        tiles, with outputs in a folder.
+        """Prepare for jobs on numbers of blocks and tiles, with outputs in a folder; the largest
+        job needs `least` bytes.
         """
         threads, memory = self.resources.thread_count, self.resources.bytes
         most = min(threads, self.most or threads)
@@ -157,7 +157,7 @@ class Processes(Workers):
 class Local(Workers):
     """Processes of this computer, or threads of this process if there is only one block."""
 
-    # The job of a single block uses all threads, and new processes would only take time to start.
+    # The job of a single block uses all threads, so the time to start processes would be lost.
 
     def start(self, folder: Path, least: int, blocks: int, tiles: int) -> None:
         """Prepare for jobs."""
@@ -179,7 +179,7 @@ class Local(Workers):
 
 
 class _OfProcess(NamedTuple):
-    """What the jobs of a process have in common."""
+    """What all jobs of a process share."""
 
     stop: threading.Event
     threads: SharedThreads

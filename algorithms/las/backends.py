@@ -76,8 +76,8 @@ def _command_of_the_build(packages: list[str]) -> str:
         command = f"flatpak run --devel --command=pip3 org.qgis.qgis install {names} --user"
     else:
         managers = ("apt-get", "dnf", "zypper")
-        found = next((name for name in managers if shutil.which(name)), "apt-get")
-        command = f"sudo {found} install {debs}"
+        manager = next((name for name in managers if shutil.which(name)), "apt-get")
+        command = f"sudo {manager} install {debs}"
     return f"In a terminal, type '{command}' and restart QGIS."
 
 

@@ -45,8 +45,8 @@ def compressed(laszip: Vlr, chunks: Sequence[np.ndarray]) -> list[memoryview]:
     writer.write_chunks(list(chunks))
     writer.finish()
     file.seek(0)
-    found, data, start = [], file.getbuffer(), 8
+    compressed, data, start = [], file.getbuffer(), 8
     for size in writer.chunk_sizes(file):
-        found.append(data[start : start + size])
+        compressed.append(data[start : start + size])
         start += size
-    return found
+    return compressed

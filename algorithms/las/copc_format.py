@@ -141,13 +141,13 @@ def new_header(layout: LasFile, point_format: int, statistics: Statistics) -> by
 
 def new_vlrs(layout: LasFile, point_format: int, progress: Progress) -> list[Vlr]:
     """Return the records before the points, of which the first is the info record, still empty."""
-    kept = [vlr for vlr in layout.vlrs if _is_kept(vlr)]
+    vlrs = [vlr for vlr in layout.vlrs if _is_kept(vlr)]
     wkt = _wkt(layout, progress)
     if wkt is not None:
-        kept = [vlr for vlr in kept if vlr.key not in (*GEOKEY_RECORDS, WKT_RECORD)]
-        kept.insert(0, wkt)
+        vlrs = [vlr for vlr in vlrs if vlr.key not in (*GEOKEY_RECORDS, WKT_RECORD)]
+        vlrs.insert(0, wkt)
     laszip = laszip_vlr(point_format, layout.extra_bytes, variable_chunks=True)
-    return [new_vlr(COPC_INFO, bytes(160), ""), laszip, *kept]
+    return [new_vlr(COPC_INFO, bytes(160), ""), laszip, *vlrs]
 
 
 def kept_evlrs(layout: LasFile) -> list[Evlr]:

@@ -103,7 +103,7 @@ def find_nodes(
     # Only pages whose branches touch the box are read, from a file that may be open; before that,
     # `get_ready` is called with the start and the end of the pages.
     layout = hierarchy.layout
-    found, total, is_whole = [], 0, True
+    selected, total, is_whole = [], 0, True
 
     def wanted(keys: np.ndarray) -> np.ndarray:
         return _touching(hierarchy, keys, box) & (keys[:, 0] < levels)
@@ -112,10 +112,10 @@ def find_nodes(
         # The points of all nodes on these pages count, not only those of the wanted nodes.
         total += int(np.maximum(entries["count"], 0).sum(dtype=np.int64))
         is_whole &= not (entries["count"][~touch] == -1).any()
-        found.append(entries[touch & (entries["count"] > 0)])
+        selected.append(entries[touch & (entries["count"] > 0)])
     if total > layout.count or (is_whole and total != layout.count):
         raise _uncounted(layout)
-    nodes = np.concatenate(found)
+    nodes = np.concatenate(selected)
     nodes = nodes[np.argsort(nodes["start"], kind="stable")]
     if (nodes["start"][1:] < nodes["start"][:-1] + nodes["size"][:-1].astype(np.uint64)).any():
         raise _octree_error(layout, "its nodes overlap in the file")

@@ -124,11 +124,11 @@ def nodes_of(
     elif depth == branch.depths:
         yield from nodes_of(points.below(cell))
     else:
-        left = counts[1:].sum(axis=0).reshape(8, -1).sum(axis=1)
+        remaining = counts[1:].sum(axis=0).reshape(8, -1).sum(axis=1)
         groups[depth, cells] = True
-        groups[depth + 1 :, cells] = np.repeat(left < _SMALL_NODE, counts.shape[1] // 8)
+        groups[depth + 1 :, cells] = np.repeat(remaining < _SMALL_NODE, counts.shape[1] // 8)
         yield node, points.records(groups)
-        for child in np.flatnonzero(left >= _SMALL_NODE).tolist():
+        for child in np.flatnonzero(remaining >= _SMALL_NODE).tolist():
             yield from nodes_of(points, depth + 1, 8 * cell + child)
 
 
@@ -218,19 +218,19 @@ def _depths(
     branch, uint16 (n,); the number of depths if no depth takes the point.
     """
     depths = np.full(len(codes), branch.depths, dtype=np.uint16)
-    left = np.arange(len(codes), dtype=order.dtype)
+    remaining = np.arange(len(codes), dtype=order.dtype)
     for depth in range(branch.depths):
-        cells = codes[left] >> np.uint64(3 * (_DEEPEST - branch.depth - depth))
+        cells = codes[remaining] >> np.uint64(3 * (_DEEPEST - branch.depth - depth))
         starts = np.flatnonzero(np.concatenate(([True], cells[1:] != cells[:-1])))
-        sizes, rows = np.diff(starts, append=len(cells)), order[left]
+        sizes, rows = np.diff(starts, append=len(cells)), order[remaining]
         # The first point of each cell in file order.
         takes = rows == np.repeat(np.minimum.reduceat(rows, starts), sizes)
         if taken_cells:
             takes &= np.repeat(taken_cells[depth].add(cells[starts]), sizes)
-        depths[left[takes]] = depth
-        left = left[~takes]
+        depths[remaining[takes]] = depth
+        remaining = remaining[~takes]
         progress((depth + 1) / branch.depths)
-        if not len(left):
+        if not len(remaining):
             break
     return depths
 

@@ -76,8 +76,8 @@ def crs_among(
 
 def _data_of(every: Sequence[Record], keys: Sequence[tuple[str, int]]) -> tuple[bytes, ...]:
     """Return the different contents of records with some keys, in the order of the keys."""
-    found = (record.data or b"" for key in keys for record in every if record.key == key)
-    return tuple(dict.fromkeys(found))
+    contents = (record.data or b"" for key in keys for record in every if record.key == key)
+    return tuple(dict.fromkeys(contents))
 
 
 @functools.lru_cache(maxsize=64)

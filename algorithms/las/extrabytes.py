@@ -86,19 +86,19 @@ def extra_dimensions(layout: LasFile) -> list[tuple[str, str, int]]:
     bytes, in the terms of PDAL.
     """
     # Deprecated pairs and triples, and undescribed bytes, are left out.
-    found = []
+    dimensions = []
     for descriptor in _descriptors(layout) or ():
         kind, options = descriptor[2], descriptor[3]
         if not 1 <= kind < len(_SIZES):
             continue
         name, size = text_of(descriptor[4:36]), _SIZES[kind]
         if kind in _KINDS:
-            found.append((name, "floating", size))
+            dimensions.append((name, "floating", size))
         elif options & (_HAS_SCALE | _HAS_OFFSET):
-            found.append((name, "floating", 8))
+            dimensions.append((name, "floating", 8))
         else:
-            found.append((name, "unsigned" if kind % 2 else "signed", size))
-    return found
+            dimensions.append((name, "unsigned" if kind % 2 else "signed", size))
+    return dimensions
 
 
 def dimension_names(layout: LasFile) -> list[str]:

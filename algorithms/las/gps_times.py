@@ -54,7 +54,7 @@ def _layers(layout: LasFile, file: BinaryIO) -> Iterator[bytes]:
 def _blocks(layout: LasFile, file: BinaryIO) -> Iterator[bytes]:
     """Yield the bytes of points that are compressed one by one."""
     file.seek(layout.points_start + 8)
-    left, before = sum(size for _, size in layout.chunk_table), b""
-    while left > 0 and (block := file.read(min(_BLOCK, left))):
+    remaining, before = sum(size for _, size in layout.chunk_table), b""
+    while remaining > 0 and (block := file.read(min(_BLOCK, remaining))):
         yield before + block
-        left, before = left - len(block), block[1 - len(_RUN) :]
+        remaining, before = remaining - len(block), block[1 - len(_RUN) :]

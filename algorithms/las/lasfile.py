@@ -298,10 +298,10 @@ class LasFile:
         """
         # Stale pointers, which some writers leave, are left out.
         known = [fields.WAVEFORM_START, fields.EVLR_START][: max(self.minor_version - 2, 0)]
-        found = {field.start: field.get(self.header) for field in known}
+        pointers = {field.start: field.get(self.header) for field in known}
         return {
             place: new_start + sum(min(max(old - start, 0), end - start) for start, end in tail)
-            for place, old in found.items()
+            for place, old in pointers.items()
             if self.tail_start <= old <= self.size
         }
 

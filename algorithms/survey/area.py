@@ -147,8 +147,8 @@ def _is_odd(x: np.ndarray, y: np.ndarray, polygon: Polygon) -> np.ndarray:
         low, high = np.where(upwards, ring, following), np.where(upwards, following, ring)
         firsts, lasts = np.searchsorted(y, low[:, 1]), np.searchsorted(y, high[:, 1])
         for edge in np.flatnonzero(firsts < lasts):
-            beside = slice(firsts[edge], lasts[edge])
+            places = slice(firsts[edge], lasts[edge])
             (x_low, y_low), (x_high, y_high) = low[edge], high[edge]
             run, rise = x_high - x_low, y_high - y_low
-            odd[beside] ^= (x[beside] - x_low) * rise < (y[beside] - y_low) * run
+            odd[places] ^= (x[places] - x_low) * rise < (y[places] - y_low) * run
     return odd

@@ -165,15 +165,15 @@ def _of_frame(frame: Any, kind: str) -> tuple[Iterable[_Feature], str | None]:
     # For a frame without other columns, older versions of pandas return no records.
     if len(getattr(frame, "columns", ())) > 1:
         rows = frame.drop(columns=shapes.name).to_dict("records")
-    found = (
+    features = (
         (coordinates, attributes)
         for data, attributes in zip(shapes.to_wkb(), rows)
         for name, coordinates in (geometries_of(data) if data else ())
         if name == kind
     )
     if shapes.crs is None:
-        return found, None
-    return found, ":".join(shapes.crs.to_authority() or ()) or shapes.crs.to_wkt()
+        return features, None
+    return features, ":".join(shapes.crs.to_authority() or ()) or shapes.crs.to_wkt()
 
 
 def _one_line(error: Exception) -> str:

@@ -47,7 +47,7 @@ def read_features(
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # on what is left out of geometries, such as M
             layers = [layer for layer in reads(name, attribute) if wanted in ("", layer.name)]
-        found = {layer.name: (list(_of_kind(layer, kind)), layer.crs) for layer in layers}
+        by_layer = {layer.name: (list(_of_kind(layer, kind)), layer.crs) for layer in layers}
     except (BareEarthError, MemoryError):
         raise
     except ValueError as error:  # of a geometry
@@ -57,16 +57,16 @@ def read_features(
             f"Cannot read {name}: it is damaged, or no vector file. Give GeoPackage, GeoJSON or a"
             " shapefile."
         ) from error
-    if wanted and not found:
+    if wanted and not by_layer:
         raise BareEarthError(f"{name} has no layer {wanted}. Check its name.")
-    filled = [layer for layer in found if found[layer][0]]
+    filled = [layer for layer in by_layer if by_layer[layer][0]]
     if len(filled) > 1:
         word = {"Polygon": "polygons", "Point": "points"}.get(kind, "lines")
         raise BareEarthError(
             f"{name} has {word} in the layers {', '.join(filled)}. Give one of them:"
             f" '{name}{_LAYER}{filled[0]}'."
         )
-    features, crs = found[filled[0]] if filled else ([], None)
+    features, crs = by_layer[filled[0]] if filled else ([], None)
     if Path(name).suffix.lower() not in _GEOJSON or not _WGS84.match(crs or ""):
         return features, crs
     # The library takes coordinates as degrees if GeoJSON states no CRS, or an unknown one.

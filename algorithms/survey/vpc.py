@@ -265,16 +265,16 @@ def _creation(layout: LasFile) -> str:
 
 def _dimensions(layout: LasFile) -> list[Dimension]:
     number = layout.point_format
-    found = [*_LOCATION, *_ALWAYS, _ANGLE]
+    dimensions = [*_LOCATION, *_ALWAYS, _ANGLE]
     if number not in (0, 2):
-        found.append(_TIME)
+        dimensions.append(_TIME)
     if number >= 6:
-        found.append(_CHANNEL)
+        dimensions.append(_CHANNEL)
     if number in (2, 3, 5, 7, 8, 10):
-        found += _COLOURS
+        dimensions += _COLOURS
     if number in (8, 10):
-        found.append(_INFRARED)
-    return found + [Dimension(*extra) for extra in extra_dimensions(layout)]
+        dimensions.append(_INFRARED)
+    return dimensions + [Dimension(*extra) for extra in extra_dimensions(layout)]
 
 
 def _reference(file: Path, target: Path) -> str:
