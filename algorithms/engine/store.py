@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from types import MappingProxyType
-from typing import Callable, Mapping, NamedTuple, Protocol, Sequence, TypeVar
+from typing import Any, Callable, Mapping, NamedTuple, Sequence, TypeVar
 
 import numpy as np
 
@@ -18,22 +18,6 @@ _Result = TypeVar("_Result")
 OTHERS = "others"
 # x and y in metres.
 Corner = tuple[float, float]
-
-
-class Flag(Protocol):
-    """A flag of points, of which some are selected by their indices, such as an array."""
-
-    def __getitem__(self, index: np.ndarray, /) -> np.ndarray:
-        """Return the flag of some points; bool, the shape of the index."""
-
-
-class Rows(Protocol):
-    """An array of rows and columns, of which slices are read, such as an array."""
-
-    shape: tuple[int, ...]
-
-    def __getitem__(self, where: tuple[slice, ...], /) -> np.ndarray:
-        """Return what lies in slices of rows and columns."""
 
 
 class Leaves(NamedTuple):
@@ -67,7 +51,7 @@ class Marks(NamedTuple):
     # Selected points that get a value, while the others are context; None for all.
     wanted: np.ndarray | None = None
     # Further flags of the step, by name: arrays, or objects that return such an array for an index.
-    flags: Mapping[str, Flag] = MappingProxyType({})
+    flags: Mapping[str, Any] = MappingProxyType({})
 
 
 class BlockPoints(NamedTuple):
@@ -191,7 +175,7 @@ class Store:
         """Store the values of points, whose positions ascend; only one thread may call this."""
         raise NotImplementedError
 
-    def keep(self, cells: np.ndarray) -> Rows:
+    def keep(self, cells: np.ndarray) -> Any:
         """Return cells, shape (rows, columns), or if the points are on disk an object that reads
         slices of them from there.
         """

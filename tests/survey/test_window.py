@@ -152,7 +152,7 @@ def test_a_small_window_of_copc_reads_only_its_nodes(octree):
     # Of all other nodes the points are damaged: whoever reads them is refused.
     wanted = find_nodes(hierarchy, box)["start"]
     assert find_nodes(hierarchy, nowhere).size == 0
-    data, heard = bytearray(octree.read_bytes()), LasKit.Heard()
+    data, heard = bytearray(octree.read_bytes()), Heard()
     for node in find_nodes(hierarchy, (399_000.0, 4_999_000.0, 401_000.0, 5_001_000.0)):
         start, size = int(node["start"]), int(node["size"])
         if start not in wanted:
@@ -199,7 +199,7 @@ def test_nested_pages_are_followed_only_where_the_window_is(octree):
     small, large = (
         (400_010.0, 5_000_010.0, 400_010.0 + side, 5_000_010.0 + side) for side in (90.0, 580.0)
     )
-    cloud, heard = read_cloud(octree), LasKit.Heard()
+    cloud, heard = read_cloud(octree), Heard()
     nest_pages(octree)
     assert_is_part(read_window(octree, large, heard), cloud, large)
     # All pages but the first, and that of the corner, are damaged: whoever reads them tells of it.
