@@ -80,7 +80,7 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         context: QgsProcessingContext,
         progress: FeedbackProgress,
     ) -> None:
-        """Download what is remote, and set `brought`; runs in any thread, before `compute`."""
+        """Download remote inputs, and set `brought`; runs in any thread, before `compute`."""
 
     def compute(
         self,

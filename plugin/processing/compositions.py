@@ -41,8 +41,8 @@ _USUAL_CELL = 1.0
 
 
 def _written(cloud: str, is_survey: bool) -> tuple[str, TileOutput]:
-    """Return where the points of an output are written, those of many files into a folder of this
-    name without its ending, and how.
+    """Return the path of the points, for many files a folder of this name without its ending, and
+    the options for writing them.
     """
     if not cloud or not is_survey:
         return cloud, TileOutput()
@@ -104,7 +104,7 @@ class CompositionAlgorithm(ToolAlgorithm):
         return self._make_own(request, progress)
 
     def _tell_of_ignored(self, request: Request) -> None:
-        """Warn of values that a delivery, or a run without one, does not use."""
+        """Warn of values that this run does not use, with or without a delivery."""
         _, parameters, context, progress = request
         if self._delivery(parameters, context):
             outputs = (field.name() for field in self.destinationParameterDefinitions())
@@ -177,7 +177,7 @@ class CompositionAlgorithm(ToolAlgorithm):
     def _show_layers(
         self, done: DeliverySummary, first: str, context: QgsProcessingContext
     ) -> None:
-        """Let QGIS load rasters, lines and polygons; `first` is visible at first."""
+        """Let QGIS load rasters, lines and polygons, of which `first` is visible."""
         looks = {
             "water": layers.WATER, "breaklines": layers.BREAKLINES, "places": layers.PLACES,
             "low_confidence": layers.LOW_CONFIDENCE,

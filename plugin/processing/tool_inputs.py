@@ -52,7 +52,7 @@ from .inputs import (
 from .remote import LAYER_HELP, Remote
 from .stated_crs import text_of
 
-# What is said of rasters that are no files, by the names of their inputs.
+# Errors for rasters that are not files, by the names of their inputs.
 _NO_FILES = {
     "source": mark("The elevation raster is not a file. Export it as GeoTIFF first."),
     "dtm": mark("The terrain model is not a file. Export it as GeoTIFF first."),
@@ -69,9 +69,9 @@ _ATTRIBUTES = {
 
 
 class Given(NamedTuple):
-    """What a user gives for an input."""
+    """The value of an input in a dialog."""
 
-    value: object  # as the tool gets it; None for nothing
+    value: object  # as the tool gets it; None for an empty field
     options: Options = MappingProxyType({})  # of the command line
     # Of an input that the command needs: its words, files and name.
     arguments: tuple[str, ...] = ()
@@ -81,7 +81,7 @@ class Given(NamedTuple):
 
 
 class Request(NamedTuple):
-    """A dialog with the values that a user gives."""
+    """A dialog with the values of its fields."""
 
     algorithm: BareEarthAlgorithm
     parameters: dict[str, object]
@@ -137,7 +137,7 @@ def add_input(algorithm: BareEarthAlgorithm, declared: Input) -> None:
 
 
 def given(request: Request, declared: Input) -> Given:
-    """Return what the user gives for an input; refuse what is not suitable."""
+    """Return the value of an input in a dialog; refuse unsuitable values."""
     return _READERS[declared.kind](request, declared)
 
 
@@ -161,7 +161,7 @@ def _survey(request: Request, declared: Input) -> Given:
 
 
 def _of_sources(sources: Sequence[Path | Remote], is_one: bool = False) -> Given:
-    """Return what is given by point clouds; remote ones are no values before they are here."""
+    """Return the value for point clouds, without remote ones, which are downloaded later."""
     remotes = tuple(source for source in sources if isinstance(source, Remote))
     paths = tuple(source for source in sources if isinstance(source, Path))
     value = next(iter(paths), None) if is_one else list(paths)
@@ -180,8 +180,8 @@ def _area(request: Request, declared: Input) -> Given:
 
 
 def part_of(request: Request) -> tuple[Area | None, bool]:
-    """Return the area, and whether it is in the CRS of the points; it has its own CRS while that of
-    remote points is not known.
+    """Return the area, and whether it is in the CRS of the points; it is in its own CRS as long as
+    that of remote points is not known.
     """
     algorithm, parameters, context, _ = request
     if algorithm.is_elsewhere and not (algorithm.stated or algorithm.layer_crs):

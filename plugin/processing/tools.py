@@ -41,7 +41,7 @@ from .outputs import after_cancel, do_not_load, is_blank, point_cloud_formats
 from .remote import LIMIT, add_remote
 from .tool_inputs import Given, Request, add_input, given, part_of
 
-# Inputs of these kinds, which name the run, are found first; these are read when the work begins.
+# Inputs of these kinds, which name the run, are read first; `_LATE` ones when the work begins.
 _CLOUDS = ("cloud", "clouds", "files", "survey")
 _FILES = (*_CLOUDS, "raster", "address")
 _LATE = ("checkpoints", "polygons")
@@ -49,7 +49,7 @@ _LATE = ("checkpoints", "polygons")
 _PARTS = ("area", "extent")
 # Outputs of these kinds are files of points.
 _POINTS = ("cloud", "points")
-# What to do if it is too much.
+# Advice in the error for a download over the limit.
 _ADVICE = "Choose a smaller extent"
 _MANY = mark(
     "{} lists {} point clouds that have points there, and this algorithm reads one. Choose 'Point"
@@ -57,12 +57,12 @@ _MANY = mark(
 )
 # Titles of the layers of classes, by what a tool for points shows.
 _TITLES = {"classes": layers.CLASSES, "key points": mark("key points")}
-# Of the numbers of many files; all others are added up.
+# Functions that combine the numbers of many files; all others are added up.
 _TOGETHER = {"MINIMUM": min, "MAXIMUM": max}
 
 
 class ToolAlgorithm(BareEarthAlgorithm):
-    """A tool, given its declaration; derived classes do its work."""
+    """Base of the algorithms that are made from the declarations of tools."""
 
     def __init__(self, tool: Tool) -> None:
         super().__init__()
@@ -95,7 +95,7 @@ class ToolAlgorithm(BareEarthAlgorithm):
         context: QgsProcessingContext,
         progress: FeedbackProgress,
     ) -> dict[str, object]:
-        """Let the tool work, show what it has written, and return the results."""
+        """Run the tool, show its outputs, and return the results."""
         raise NotImplementedError
 
     def initAlgorithm(self, configuration: dict[str, object] | None = None) -> None:
@@ -145,7 +145,7 @@ class ToolAlgorithm(BareEarthAlgorithm):
         self.subject = next(found.name for found in self._given.values() if found.name)
 
     def set_inputs(self, is_list: bool = False) -> None:
-        """Set the input files, as far as they are here; a list of files is a survey."""
+        """Set the input files that are on this computer; a list of files is a survey."""
         paths = [path for found in self._given.values() for path in found.paths]
         kind = next(declared.kind for declared in self._inputs if declared.kind in _FILES)
         is_survey = {"cloud": False, "address": False, "files": True}.get(kind, is_list or None)
@@ -164,17 +164,17 @@ class ToolAlgorithm(BareEarthAlgorithm):
                 self, parameters, declared.field_name, context
             ):
                 progress.warning("The layer's filter is not applied: all points are read.")
-        # Of remote points the CRS is not known before they are here.
+        # The CRS of remote points is not known before the download.
         if not any(map(self._is_far, self._given)):
             self._find_rest(Request(self, parameters, context, progress))
 
     def _is_far(self, name: str) -> bool:
-        """Return whether an input, by its name, is points that have to be downloaded first."""
+        """Return whether the points of an input have to be downloaded first."""
         kind = next(declared.kind for declared in self._inputs if declared.name == name)
         return kind != "address" and bool(self._given[name].remotes)
 
     def _find_rest(self, request: Request) -> None:
-        """Find what is given beside files."""
+        """Read the inputs that are not files."""
         for declared in self._inputs:
             if declared.kind not in (*_FILES, *_LATE):
                 self._given[declared.name] = given(request, declared)
@@ -185,7 +185,7 @@ class ToolAlgorithm(BareEarthAlgorithm):
         context: QgsProcessingContext,
         progress: FeedbackProgress,
     ) -> None:
-        """Download the needed part of remote points, and find what is given beside them."""
+        """Download the needed part of remote points, and read the inputs that are not files."""
         self.brought.clear()
         far = {name: found for name, found in self._given.items() if self._is_far(name)}
         request = Request(self, parameters, context, progress)
@@ -197,7 +197,7 @@ class ToolAlgorithm(BareEarthAlgorithm):
         from ...algorithms.remote.cache import Surroundings, bring_all, cache_of
         from ...algorithms.remote.fetching import Wanted
 
-        # Without a field for an area, the part is taken as the whole.
+        # Without a field for an area, the downloaded part is all that is used.
         is_of_area, margin = any(declared.kind in _PARTS for declared in self._inputs), 0.0
         if is_of_area:
             rasters = (output.field_name for output in self._outputs if output.kind == "raster")
@@ -231,7 +231,7 @@ class ToolAlgorithm(BareEarthAlgorithm):
         context: QgsProcessingContext,
         progress: FeedbackProgress,
     ) -> dict[str, object]:
-        """Find what else is given, tell the command, and work."""
+        """Read the other inputs, write the command into the log, and run the tool."""
         request = Request(self, parameters, context, progress)
         self._find_late(request)
         inputs = {name: found.value for name, found in self._given.items()}
@@ -241,13 +241,13 @@ class ToolAlgorithm(BareEarthAlgorithm):
         return self.work(inputs, outputs, chosen, context, progress)
 
     def _find_late(self, request: Request) -> None:
-        """Find what else is given, which can take long."""
+        """Read the inputs that can take long."""
         for declared in self._inputs:
             if declared.kind in _LATE:
                 self._given[declared.name] = given(request, declared)
 
     def _path(self, request: Request, output: Output) -> str:
-        """Return the path of an output; empty if it is not wanted."""
+        """Return the path of an output; empty if the user leaves it out."""
         name, context = output.field_name, request.context
         if output.kind in _POINTS:
             return self._cloud(request, name)
@@ -324,7 +324,7 @@ class FileToolAlgorithm(ToolAlgorithm):
         context: QgsProcessingContext,
         progress: FeedbackProgress,
     ) -> dict[str, object]:
-        """Let the tool work, show what it has written, and return the results."""
+        """Run the tool, show its outputs, and return the results."""
         # Imported here, so that QGIS starts faster.
         from ...algorithms.tools.running import run
 

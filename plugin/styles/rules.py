@@ -11,7 +11,7 @@ from ..i18n import mark, tr
 
 
 class Verdict(NamedTuple):
-    """What a rule did with a cell, in words that fit into the panel of layers, and its colour."""
+    """The decision of a rule on a cell, in words that fit the panel of layers, and its colour."""
 
     text: str
     colour: str
@@ -48,9 +48,7 @@ OBJECTS = {
     "below-water": Verdict(mark("below water"), "#0fa3b1"),
     "dense-outliers": Verdict(mark("low outliers"), "#127a86"),
 }
-# Rules that change no cell, but what other rules see.
-UNSEEN = ("woods", "tolerance-surface", "plain-surface", "paper-surface")
-# For rules that rarely decide so.
+# For rules that rarely decide in this way.
 _RARE_GROUND = "#5f5236"
 _RARE_OTHER = "#ffa6b8"
 
