@@ -221,12 +221,13 @@ def test_scattered_points_of_images_take_no_ground_away(method):
 @pytest.mark.parametrize(
     ("kind", "density"), [("gorge", 10.0), pytest.param("quarry", 10.0, marks=pytest.mark.long)]
 )
-def test_breaks_stay_where_points_are_dense(method, kind, density):
+def test_breaks_stay_where_points_are_dense(method, kind, density, request):
+    if (method, kind) == ("tin-densification", "gorge"):
+        lost = "TIN densification loses 5 % of the gorge"
+        request.applymarker(pytest.mark.xfail(reason=lost, strict=True))
     scene = make(kind, seed=5, density=density, size=70.0)
     found = METHODS[method].classify(scene.points, METHODS[method].parameters())
-    # TIN densification loses 5 % of the gorge.
-    is_lost = (method, kind) == ("tin-densification", "gorge")
-    assert found[scene.ground].mean() > (0.94 if is_lost else 0.97)
+    assert found[scene.ground].mean() > 0.97
 
 
 SOME_SAMPLES = ("samp11", "samp31", "samp54")
