@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
-from typing import Callable, Iterator
+from typing import Callable, Iterator, Sequence, TypeVar
 
 import numpy as np
 
@@ -26,6 +26,7 @@ from ..las.reading import cloud_of, columns_of, read_parts, require_packages
 from ..las.return_numbers import count_from_one
 from .area import Area
 
+_Taken = TypeVar("_Taken")
 # Returns a part with other values, given its indices in the file.
 Change = Callable[[slice, PointCloud], PointCloud]
 
@@ -48,7 +49,7 @@ def read_window(
     require_packages(layout)
     if layout.is_copc and layout.unpacked is None and change is None:
         try:
-            parts = _in_nodes(layout, area, progress, times, numbers)
+            parts = _in_nodes(layout, [area.bounds], progress, times, numbers)
             return _joined(layout, _chosen(layout, area, parts), progress.quiet())
         except OctreeError as error:
             progress.warning(f"{error} The whole file is read instead, which takes longer.")
@@ -66,12 +67,32 @@ def parts_in_window(
         yield replace(part, scanner_channel=None)
 
 
+def taken_near(
+    layout: LasFile,
+    boxes: Sequence[Box],
+    take: Callable[[PointCloud], _Taken],
+    progress: Progress = SILENT,
+) -> list[_Taken]:
+    """Return what `take` makes of each part of a file, which is read once; of a COPC file, only the
+    nodes that touch a box are read.
+    """
+    require_packages(layout)
+    if not any(may_touch(layout, box) for box in boxes):
+        return []
+    if layout.is_copc and layout.unpacked is None:
+        try:
+            return list(map(take, _in_nodes(layout, boxes, progress, False, False)))
+        except OctreeError as error:
+            progress.warning(f"{error} The whole file is read instead, which takes longer.")
+    return list(map(take, read_parts(layout, progress)))
+
+
 def _in_nodes(
-    layout: LasFile, area: Area, progress: Progress, times: bool, numbers: bool
+    layout: LasFile, boxes: Sequence[Box], progress: Progress, times: bool, numbers: bool
 ) -> Iterator[PointCloud]:
-    """Yield the points of the nodes of a COPC file that touch an area."""
+    """Yield the points of the nodes of a COPC file that touch a box."""
     hierarchy, crs = read_hierarchy(layout), read_crs(layout, progress)
-    nodes, names = find_nodes(hierarchy, area.bounds), columns_of(layout)
+    nodes, names = _nodes_at(hierarchy, boxes), columns_of(layout)
     if times:
         names["gps_time"] = "gps_time", np.float64
     done, total = 0, int(nodes["count"].sum(dtype=np.int64))
@@ -85,6 +106,12 @@ def _in_nodes(
         yield count_from_one(cloud_of(layout, crs, **columns))
         done += len(chunk)
         progress(done / total)
+
+
+def _nodes_at(hierarchy: Hierarchy, boxes: Sequence[Box]) -> np.ndarray:
+    """Return the nodes of a COPC file that touch a box, in file order."""
+    nodes = np.concatenate([find_nodes(hierarchy, box) for box in boxes])
+    return nodes[np.unique(nodes["start"], return_index=True)[1]]
 
 
 def _places_of(hierarchy: Hierarchy, nodes: np.ndarray) -> np.ndarray:
