@@ -130,6 +130,8 @@ def _accuracy(summary: DeliverySummary, void_distance: float) -> Iterator[tuple[
         yield "Accuracy of the terrain", "Not measured: no checkpoints are given."
     if check is None:
         return
+    for not_counted in check.left_out:
+        yield "Checkpoints that are not counted", not_counted
     if check.verdict:
         yield "Verdict", check.verdict
     if check.statement and not check.doubt:

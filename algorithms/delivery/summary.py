@@ -74,6 +74,7 @@ class DeliverySummary:
         for name, figures in (("checkpoints", check.nva), ("vegetated", check.vva)):
             if figures is not None:
                 rows.append((name, figures.text))
+        rows += [("not counted", left) for left in check.left_out]
         if check.verdict:
             rows.append(("verdict", check.verdict))
         if check.hold_out is not None and check.hold_out.all is not None:

@@ -12,7 +12,7 @@ from ..core.errors import BareEarthError
 from ..las.sources import open_source
 from .wkb import geometries_of
 
-_WGS84 = re.compile(r'EPSG:4326$|OGC:CRS84$|GEOG[A-Z]*\["WGS 84(?! /)', re.IGNORECASE)
+_WGS84 = re.compile(r'EPSG:(4326|4979)$|OGC:CRS84$|GEOG[A-Z]*\["WGS 84(?! /)', re.IGNORECASE)
 
 # Between a file and the name of a layer, as QGIS writes it.
 _LAYER = "|layername="

@@ -391,7 +391,13 @@ def test_checkpoints_are_compared_with_points_and_terrain_model(scene, tmp_path)
     x, y = np.meshgrid([60.0, 66.0, 72.0], [10.0, 45.0, 80.0])
     places = np.column_stack((x.ravel(), y.ravel(), ground_at(x, y).ravel() - 0.1))
     known = places + np.array((EAST, NORTH, 0.0))
+    known = np.vstack((known, known[:1], known[1:2] - [0.0, 0.0, known[1, 2]]))
     summary = deliver(scene[1], tmp_path / "out", delivery="drone-site", checkpoints=known, **FAST)
+    left = ["1 listed again (each point counts once): 10",
+            "1 without a height (missing, or a nodata value such as 0 or -9999): 11"]  # fmt: skip
+    assert [text for title, text in summary.rows() if title == "not counted"] == left
+    page = (tmp_path / "out" / "index.html").read_text(encoding="utf-8")
+    assert all(text in page for text in left)
     assert summary.check.counted == 9 and summary.check.shift == pytest.approx(-0.1, abs=0.03)
     assert {"checkpoints.csv", "checkpoints.gpkg"} <= files_of(tmp_path / "out")
     with pytest.raises(BareEarthError, match="checkpoints"):

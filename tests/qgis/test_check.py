@@ -120,6 +120,24 @@ def test_a_layer_in_another_crs_and_its_style(cloud, rows, tmp_path, has_z):
     QgsProject.instance().clear()
 
 
+def test_a_layer_with_repeated_points_missing_heights_and_control_points(
+    registry, cloud, rows, tmp_path, context, log
+):
+    names = [f"{'GCP' if number == 3 else 'CHK'}{number}" for number in range(len(rows))]
+    given = [(name, *row[1:]) for name, row in zip(names, rows)]
+    given[1] = (*given[1][:3], 0.0, given[1][4])
+    points = QgsVectorLayer(layer_of([*given, given[0]], tmp_path), "points")
+    parameters = {
+        "INPUT": str(cloud), "CHECKPOINTS": points, "COVER_FIELD": "land", "NAME_FIELD": "label",
+        "OUTPUT": str(tmp_path / "errors.gpkg"),
+    }  # fmt: skip
+    results, done = registry.createAlgorithmById(ALGORITHM).run(parameters, context, log)
+    assert done and results["COUNTED"] == len(rows) - 3, log.text
+    states = {f["NAME"]: f["STATE"] for f in QgsVectorLayer(results["OUTPUT"]).getFeatures()}
+    assert (states["CHK1"], states["GCP3"]) == ("no height", "control")
+    assert "1 listed again (each point counts once): CHK0" in log.text
+
+
 def test_polygons_as_checkpoints_are_refused(cloud):
     import processing
 

@@ -195,20 +195,28 @@ def test_rows_without_coordinates_are_left_out_and_told(tmp_path):
     found = read(tmp_path, f"name,x,y,z\nP1,{X},{Y},{Z}\nP2,,,\nP3,,,\n")
     assert found.names == ("P1",)
     assert "no coordinates in 2 rows, which are left out: Line 3 of" in found.notes[0]
-    with pytest.raises(BareEarthError, match=r"Line 3 of .* has no number for z, but ''"):
-        read(tmp_path, f"name,x,y,z\nP1,{X},{Y},{Z}\nP2,{X},{Y},\n")
+    with pytest.raises(BareEarthError, match=r"Line 3 of .* has no number for x, but ''"):
+        read(tmp_path, f"name,x,y,z\nP1,{X},{Y},{Z}\nP2,,{Y},{Z}\n")
+    with pytest.raises(BareEarthError, match=r"Line 3 of .* has no number for z, but 'wet'"):
+        read(tmp_path, f"name,x,y,z\nP1,{X},{Y},{Z}\nP2,{X},{Y},wet\n")
     with pytest.raises(BareEarthError, match="no number for z, but '-9999'"):
-        read(tmp_path, f"name,x,y,z\nP1,{X},{Y},{Z}\nP2,{X},{Y},-9999\n")
+        read(tmp_path, f"name,x,y,z\nP1,{X},{Y},-9999\nP2,{X},{Y},-9999\n")
 
 
 @pytest.mark.parametrize(
     "text",
-    [f"EPSG:25832\n{X} {Y} {Z} 1 2 A.JPG P\n{X} {Y}\n", f"name,x,y,z\nP,{X},{Y},\nQ,{X},{Y},{Z}\n",
+    [f"EPSG:25832\n{X} {Y} {Z} 1 2 A.JPG P\n{X}\n",
      f"name,x,zP,{X},{Y},{Z}\nname\nP,{X},{Y},{Z}\n", f"x,y,z\n{X},{Y},{Z}\nend of file,\n"],
 )  # fmt: skip
 def test_damaged_tables_are_refused_with_a_sentence(tmp_path, text):
     with pytest.raises(BareEarthError, match=r"has no number|no column|holds no"):
         read(tmp_path, text)
+
+
+@pytest.mark.parametrize("name", ["p.xlsx", "p.XLS", "p.ods"])
+def test_spreadsheets_are_to_be_saved_as_csv(tmp_path, name):
+    with pytest.raises(BareEarthError, match="Save the table as CSV"):
+        read(tmp_path, "PK", name=name)
 
 
 def test_columns_that_differ_by_capitals_alone(tmp_path):
@@ -254,8 +262,8 @@ def test_z_of_the_geometry_or_of_an_attribute(tmp_path, heights, fields, expecte
 
 
 @pytest.mark.parametrize("z", [0, -9999])
-def test_points_whose_z_stands_for_none_are_refused(tmp_path, z):
-    with pytest.raises(BareEarthError, match=f"heights of {z}, which stand for none"):
+def test_points_whose_z_is_nodata_are_refused(tmp_path, z):
+    with pytest.raises(BareEarthError, match=f"heights of {z}, a nodata value"):
         read_checkpoints(layer(tmp_path, [z, z], name=["a", "b"]))
 
 

@@ -17,6 +17,13 @@ _MOST = 100_000
 _UNIT_NAMES: dict[float | None, str] = {1.0: "metres", FOOT: "feet", US_FOOT: "US survey feet"}
 # The name of a column, its heights, and metres in a unit of them if it is known.
 OtherHeights = Tuple[str, np.ndarray, Optional[float]]
+# Nodata values in the place of heights, in any unit; and values that are nodata only if the ground
+# is farther away than so many metres.
+_NODATA = (-9999.0, -999.0, -99.0, 9999.0, -32768.0, -32767.0)
+_DOUBTFUL = (0.0, -1.0, 999.0)
+_ELSEWHERE = 5.0
+# Metres, or feet: no land is so high.
+_LIMIT = 50_000.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -121,6 +128,18 @@ class Checkpoints(Geometry):
                 )
         others = tuple((name, z * _factor(unit, wanted[1]), None) for name, z, unit in self.others)
         return replace(self._moved(self.xyz * (across, across, up)), others=others)
+
+
+def is_height(values: np.ndarray) -> np.ndarray:
+    """Return which numbers can be heights."""
+    return np.isfinite(values) & (np.abs(values) < _LIMIT) & ~np.isin(values, _NODATA)
+
+
+def has_height(given: np.ndarray, ground: np.ndarray, unit: float) -> np.ndarray:
+    """Return which heights of checkpoints are heights, by those of the ground there in metres."""
+    with np.errstate(invalid="ignore"):
+        is_elsewhere = np.abs(given * unit - ground) > _ELSEWHERE
+    return is_height(given) & ~(np.isin(given, _DOUBTFUL) & is_elsewhere)
 
 
 def _factor(given: float | None, wanted: float) -> float:

@@ -20,6 +20,9 @@ NVA = "NVA"
 VVA = "VVA"
 CONTROL = "control"
 UNKNOWN = ""
+# What the name or the use of a point says, beside `CONTROL`.
+_CHECK = "check"
+_EITHER = "either"
 
 # Abbreviations for the accuracy on both kinds of land in the standard and its predecessor.
 _STATED = {"nva": NVA, "fva": NVA, "vva": VVA}
@@ -72,7 +75,7 @@ class LandCovers(NamedTuple):
     def _land(self, text: str) -> str | None:
         """Return the kind of land that a text names."""
         words = _words(text)
-        explicit = {_STATED[word] for word in words if word in _STATED}
+        explicit = _stated(text)
         if len(explicit) == 1:
             return explicit.pop()
         if not text.strip() or (words and {*words} <= _LISTS["check"] | _LISTS["point"]):
@@ -132,6 +135,7 @@ def kinds_of(
         found = [next(filter(None, kinds), None) for kinds in stated]
         if any(found):
             progress.info("The names of the checkpoints say which of them are NVA or VVA.")
+    found = _with_named_control(checkpoints, found, progress)
     unknown = Counter(
         cover or use for use, cover, kind in zip(uses, checkpoints.covers, found) if kind == UNKNOWN
     )
@@ -149,6 +153,45 @@ def kinds_of(
             f" {option('vegetated')}."
         )
     return [kind or NVA for kind in found], dict(unknown.most_common())
+
+
+def _with_named_control(
+    checkpoints: Checkpoints, kinds: list[str | None], progress: Progress
+) -> list[str | None]:
+    """Return the kinds with `CONTROL` for points whose name or use says so beside check points."""
+    uses = checkpoints.types or [""] * checkpoints.count
+    sides = [
+        _side(use) or (_CHECK if _stated(cover) else _side(name))
+        for use, cover, name in zip(uses, checkpoints.covers, checkpoints.names)
+    ]
+    is_split = {CONTROL, _CHECK} <= {*sides} or {CONTROL, _EITHER} <= {*sides}
+    fitted = CONTROL if is_split else _EITHER if {_CHECK, _EITHER} <= {*sides} else None
+    is_new = [
+        fitted is not None and side == fitted and kind != CONTROL
+        for side, kind in zip(sides, kinds)
+    ]
+    if any(is_new):
+        progress.info(
+            f"The names of {is_new.count(True):,} checkpoints say that they are control points,"
+            " since check points stand beside them."
+        )
+    return [CONTROL if new else kind for new, kind in zip(is_new, kinds)]
+
+
+def _side(text: str) -> str | None:
+    """Return what a name or a use says that a point is for; None if it says nothing."""
+    words = _words(text)
+    checks = _LISTS["check"].intersection(words)
+    if _stated(text) or checks - _LISTS["either"]:
+        return _CHECK
+    if checks:
+        return _CHECK if _has("control", words) else _EITHER
+    return CONTROL if _has("control", words) or _has("control beside check", words) else None
+
+
+def _stated(text: str) -> set[str]:
+    """Return the kinds of land that a text states by their abbreviations."""
+    return {_STATED[word] for word in _words(text) if word in _STATED}
 
 
 def _has(name: str, words: Sequence[str]) -> bool:

@@ -118,9 +118,9 @@ def _histogram(check: Check, found: Residuals) -> Html:
 
 def _map(check: Check, found: Residuals, survey: Survey) -> Html:
     marks = []
-    for (x, y, _), name, state, error in zip(
-        found.xyz.tolist(), found.names, found.states, found.errors.tolist()
-    ):
+    values = zip(found.xyz.tolist(), found.names, found.states, found.errors.tolist())
+    # Those that count lie on top of the same points.
+    for (x, y, _), name, state, error in sorted(values, key=lambda value: value[2] == COUNTED):
         is_counted = state == COUNTED
         colour = _colour(error, check.scale) if is_counted else NOT_COUNTED
         result = f"{error:+.3f} m" if is_counted else REASONS[state]
@@ -164,8 +164,8 @@ def _table(found: Residuals, survey: Survey) -> Html:
     heights = zip(*(values.tolist() for values in columns))
     rows = [
         (
-            name, cover, kind, f"{x:.2f}", f"{y:.2f}", f"{z:.3f}",
-            *("" if np.isnan(value) else f"{value:.3f}" for value in values),
+            name, cover, kind, f"{x:.2f}", f"{y:.2f}",
+            *("" if np.isnan(value) else f"{value:.3f}" for value in (z, *values)),
             "" if state == COUNTED else REASONS[state],
         )
         for name, cover, kind, (x, y, z), values, state in zip(

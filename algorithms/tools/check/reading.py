@@ -14,18 +14,17 @@ from ...core.errors import BareEarthError
 from ...crs.stated import stated_wkt
 from ...survey.shapes import Shapes
 from ...survey.vector_files import read_points
-from .checkpoints import Checkpoints, OtherHeights
+from .checkpoints import Checkpoints, OtherHeights, is_height
 from .columns import ColumnName, answer_in, columns_in, columns_of, parts_of
-from .tables import SUFFIXES, number_of, places_without_names, read_table
+from .tables import SPREADSHEETS, SUFFIXES, number_of, places_without_names, read_table
 
 # For the help of options.
 FORMATS = (
     "CSV and other tables in the CRS of the points, GeoJSON, or with pyogrio GeoPackage, shapefile"
     " and others, whose CRS is transformed to that of the points"
 )
-# Heights that stand for none.
-_NODATA = (-9999.0, -999.0, -32768.0, -32767.0)
-_LIMIT = 50_000.0
+# Cells without a value, as programs write them.
+_EMPTY = ("", "-", "--", "nan", "null", "none", "n/a", "na", "#n/a", "nodata", "inf", "-inf")
 # Two columns of heights that differ by less, in metres, hold the same.
 _SAME = 0.002
 
@@ -44,6 +43,8 @@ def read_checkpoints(path: Any, columns: str | None = None, crs: str | None = No
     if isinstance(path, (str, PathLike)):
         path = Path(path)
         suffix = path.suffix.lower()
+    if suffix in SPREADSHEETS:
+        raise BareEarthError(f"{path} is a spreadsheet. Save the table as CSV, and give that file.")
     usual = None
     if suffix in SUFFIXES:
         table = read_table(path)
@@ -91,7 +92,7 @@ def checkpoints_of_rows(
     else:
         axes = rows.axes()
         rows, notes = rows.with_values(axes)
-        x, y, z = (rows.complete(axes[axis], axis) for axis in "xyz")
+        x, y, z = (rows.numbers(axes[axis], axis) for axis in "xyz")
         across, up = (ColumnName.of(names[axes[axis]]).unit for axis in "xz")
         notes = (*notes, *rows.notes_on(axes["z"]))
     xyz = np.column_stack((x, y, z))
@@ -158,7 +159,7 @@ class _Rows(NamedTuple):
         if not self.has_chosen and _differ(given, heights):
             note = f"The heights of the checkpoints are the attribute {name}, not z of the points."
             notes = (*notes, note)
-        return self.complete(column, "z"), ColumnName.of(name).unit, notes
+        return self.numbers(column, "z"), ColumnName.of(name).unit, notes
 
     @property
     def places(self) -> np.ndarray:
@@ -176,18 +177,23 @@ class _Rows(NamedTuple):
         return self.columns[role][int(np.argmax(counts))]
 
     def _values(self, column: int) -> np.ndarray:
-        """Return the numbers in a column; NaN where there is none, or one that stands for none."""
+        """Return the numbers in a column; NaN for other texts, and for nodata among heights."""
         values = np.array([number_of(r.cells[column]) for r in self.records], dtype=np.float64)
-        return np.where(_is_height(values), values, np.nan) if column in self._of_z else values
+        return np.where(is_height(values), values, np.nan) if column in self._of_z else values
 
     def _metres(self, column: int) -> np.ndarray:
         return self._values(column) * (ColumnName.of(self.names[column]).unit or 1.0)
 
-    def complete(self, column: int, axis: str) -> np.ndarray:
-        """Return the numbers in a column; refuse rows without one."""
+    def numbers(self, column: int, axis: str) -> np.ndarray:
+        """Return the numbers in a column, NaN for missing heights of some rows; refuse rows without
+        x or y, or with another text.
+        """
         values = self._values(column)
-        if np.isnan(values).any():
-            record = self.records[int(np.argmax(np.isnan(values)))]
+        is_wrong = np.isnan(values)
+        if axis == "z" and not is_wrong.all():
+            is_wrong &= [not _is_empty(record.cells[column]) for record in self.records]
+        if is_wrong.any():
+            record = self.records[int(np.argmax(is_wrong))]
             is_layer = record.place is not None
             raise BareEarthError(
                 f"{record.where} has no number for {'its height' if is_layer else axis}, but"
@@ -218,20 +224,21 @@ class _Rows(NamedTuple):
 
     def _of_geometry(self, given: np.ndarray) -> np.ndarray:
         """Return z of the points; refuse what is missing."""
-        if np.isnan(given).any():
+        if np.isnan(given).all():
             fields = ", ".join(self.names) or "there are none"
             raise BareEarthError(
                 f"The points of {self.path} have no heights: neither their geometry nor an"
                 f" attribute that is known as z has one ({fields}). Say which attribute it is, such"
                 " as z=HEIGHT for the columns."
             )
-        if not _is_height(given).all() or not given.any():
-            wrong = given[np.argmax(~_is_height(given))]
+        known = is_height(given)
+        if not given[known].any():
+            wrong = given[np.argmax(known if known.any() else ~np.isnan(given))]
             raise BareEarthError(
-                f"The points of {self.path} have heights of {wrong:g}, which stand for none. Say"
-                " which attribute has the heights, such as z=HEIGHT for the columns."
+                f"The points of {self.path} have heights of {wrong:g}, a nodata value. Say which"
+                " attribute has the heights, such as z=HEIGHT for the columns."
             )
-        return given
+        return np.where(known, given, np.nan)
 
     def _geometry_counts(self, given: np.ndarray, column: int) -> bool:
         """Return whether z of the points is taken, not a column with a usual name."""
@@ -241,7 +248,7 @@ class _Rows(NamedTuple):
         is_zero = (given == 0.0) & ~(np.abs(heights) < 1.0)
         is_one = len(given) > 2 and np.ptp(given) == 0.0 and _differ(given, heights)
         is_orthometric = ColumnName.of(self.names[column]).height_kind == 0
-        return bool(_is_height(given).all() and not (is_zero.any() or is_one or is_orthometric))
+        return bool(is_height(given).all() and not (is_zero.any() or is_one or is_orthometric))
 
     def other_heights(self) -> tuple[OtherHeights, ...]:
         """Return all complete heights that the points may have."""
@@ -251,7 +258,7 @@ class _Rows(NamedTuple):
             if np.isfinite(values := self._values(column)).all()
         ]
         given = self.places[:, 2]
-        if _is_height(given).all() and given.any():
+        if is_height(given).all() and given.any():
             found.append(("z of the points", given, None))
         return tuple(found)
 
@@ -274,17 +281,17 @@ def _with_kind_of_file(found: Checkpoints, path: str) -> Checkpoints:
         kind = kinds.pop().upper()
         note = f"All points of {path} count as {kind}, as the name of the file says."
         found = replace(found, types=(kind,) * found.count)
-    elif "gcp" in words:
+    elif "gcp" in words or all("gcp" in map(str.lower, parts_of(name)) for name in found.names):
         note = (
-            f"{path} lists ground control points, by its name: if the points were fitted to them,"
-            " they do not test these."
+            f"{path} lists ground control points, by its name or theirs: if the points were fitted"
+            " to them, they do not test these."
         )
     return replace(found, notes=(*found.notes, note)) if note else found
 
 
-def _is_height(values: np.ndarray) -> np.ndarray:
-    """Return which numbers can be heights."""
-    return np.isfinite(values) & (np.abs(values) < _LIMIT) & ~np.isin(values, _NODATA)
+def _is_empty(cell: object) -> bool:
+    """Return whether a cell holds a number, or a word for a missing one."""
+    return number_of(cell) is not None or _word(cell).lower() in _EMPTY
 
 
 def _differ(heights: np.ndarray, others: np.ndarray) -> bool:

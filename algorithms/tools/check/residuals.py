@@ -17,9 +17,10 @@ from ...survey.area import Area, Polygon
 from ...survey.feature_files import Feature, Layer
 from ...survey.files import Survey
 from ...survey.shapes import located
-from .checkpoints import Checkpoints
+from .checkpoints import Checkpoints, has_height
 from .land_covers import CONTROL, LandCovers, kinds_of
-from .results import COUNTED, LOW_CONFIDENCE, listed
+from .results import COUNTED, LOW_CONFIDENCE, NO_HEIGHT, REPEATED, SEVERAL_HEIGHTS, listed
+from .same_points import contradict, first_at_place
 from .survey_ground import SurveyGround
 
 # Fields of the layer. Heights are in the unit of the points, errors in metres.
@@ -109,8 +110,9 @@ def residuals_of(
     is_void = np.isnan(heights)
     areas = located(low_confidence, "the low confidence areas", ground.place, progress)
     is_low = Area(None, areas).contains(x, y) if areas else np.zeros(len(x), dtype=bool)
+    known = has_height(checkpoints.xyz[:, 2], heights, up)
     reasons = {
-        CONTROL: np.array(kinds) == CONTROL,
+        **_of_lists(checkpoints, np.array(kinds) == CONTROL, known, places, up),
         "outside": is_void & ~_touches(survey, x, y),
         "void": is_void,
         "doubtful": ~(sure >= min_confidence),
@@ -118,12 +120,39 @@ def residuals_of(
     }
     states = np.select(list(reasons.values()), list(reasons), COUNTED)
     checkpoints = _with_fitting_heights(checkpoints, heights, states == COUNTED, up, progress)
-    z, uses = checkpoints.xyz[:, 2], checkpoints.types or checkpoints.covers
+    z, uses = (
+        np.where(known, checkpoints.xyz[:, 2], np.nan),
+        checkpoints.types or checkpoints.covers,
+    )
     return Residuals(
-        checkpoints.xyz, checkpoints.names,
+        np.column_stack((x, y, z)), checkpoints.names,
         [cover or use for cover, use in zip(checkpoints.covers, uses)], kinds, states.tolist(),
         heights / up, dtm, heights - z * up, (dtm - z) * up, expected, up, unknown,
     )  # fmt: skip
+
+
+def _of_lists(
+    checkpoints: Checkpoints,
+    is_control: np.ndarray,
+    known: np.ndarray,
+    places: np.ndarray,
+    up: float,
+) -> dict[str, np.ndarray]:
+    """Return the reasons that lists of checkpoints give not to count them: control, missing heights
+    and points that come several times.
+    """
+    # Of the same points, the first with a height counts, and none if one of them is control.
+    order = np.lexsort((~known, ~is_control))
+    first = np.empty(len(order), dtype=np.int64)
+    first[order] = order[first_at_place(places[order])]
+    is_control = is_control[first]
+    heights = np.where(known, checkpoints.xyz[:, 2] * up, np.nan)
+    return {
+        CONTROL: is_control,
+        NO_HEIGHT: ~known,
+        SEVERAL_HEIGHTS: contradict(first, heights),
+        REPEATED: first != np.arange(len(first)),
+    }
 
 
 def _with_fitting_heights(
@@ -228,7 +257,8 @@ def _cause(offset: float) -> str:
 def layer_of(found: Residuals, crs: Crs) -> tuple[Layer, Iterator[Feature]]:
     """Return the checkpoints with their errors as a layer of points."""
     layer = Layer("checkpoints", "Point Z", FIELDS, crs.wkt, crs.epsg)
-    return layer, (Feature(row[2:], place) for row, place in zip(found.rows(), found.xyz[:, None]))
+    places = np.nan_to_num(found.xyz)[:, None]  # formats refuse NaN; the field Z is empty there
+    return layer, (Feature(row[2:], place) for row, place in zip(found.rows(), places))
 
 
 def write_table(target: Path, found: Residuals) -> None:

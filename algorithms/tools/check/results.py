@@ -13,6 +13,9 @@ from .hold_out import AGREEMENT, HoldOut
 COUNTED = "counted"
 # The standard asks for separate figures in low confidence areas.
 LOW_CONFIDENCE = "low confidence area"
+NO_HEIGHT = "no height"
+REPEATED = "repeated"
+SEVERAL_HEIGHTS = "several heights"
 # Colours of errors, from low to high. Blue: the data lie below the checkpoint; red: above it. They
 # differ for colour-blind people.
 COLOURS = ("#2166ac", "#92c5de", "#f7f7f7", "#f4a582", "#b2182b")
@@ -30,6 +33,9 @@ REASONS = {
     "doubtful": "where the confidence is low",
     LOW_CONFIDENCE: "in low confidence areas, which have figures of their own",
     "control": "to which the survey was fitted (control)",
+    NO_HEIGHT: "without a height (missing, or a nodata value such as 0 or -9999)",
+    REPEATED: "listed again (each point counts once)",
+    SEVERAL_HEIGHTS: "listed with several heights",
 }
 
 
@@ -139,8 +145,9 @@ class Check:
             rows.append(
                 f"checkpoints       {self.counted:>6,} of {self.checkpoint_count:,} counted"
             )
-        for reason, names in (self.not_counted or {}).items():
-            rows.append(f"not counted       {len(names):>6,} {REASONS[reason]}: {listed(names)}")
+        for left in self.left_out:
+            count, _, why = left.partition(" ")
+            rows.append(f"not counted       {count:>6} {why}")
         named = {
             "points NVA": self.nva, "points VVA": self.vva,
             "DTM NVA": self.dtm_nva, "DTM VVA": self.dtm_vva,
@@ -169,6 +176,12 @@ class Check:
                 " shifted"
             )
         return [*rows, *self.statements]
+
+    @property
+    def left_out(self) -> list[str]:
+        """The numbers and names of the checkpoints that are not counted, by the reason."""
+        left = (self.not_counted or {}).items()
+        return [f"{len(names):,} {REASONS[reason]}: {listed(names)}" for reason, names in left]
 
     @property
     def statements(self) -> list[str]:

@@ -15,6 +15,7 @@ from .columns import ColumnName, columns_of
 
 # Endings of tables; other files are vector files.
 SUFFIXES = (".csv", ".txt", ".tsv", ".tab", ".xyz", ".dat", ".pts")
+SPREADSHEETS = (".xlsx", ".xlsm", ".xlsb", ".xls", ".ods", ".numbers")
 _DELIMITERS = (";", "\t", "|", ",", " ")
 # Rows that are looked at to find the delimiter.
 _SAMPLE = 50
