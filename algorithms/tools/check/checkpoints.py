@@ -19,11 +19,11 @@ _UNIT_NAMES: dict[float | None, str] = {1.0: "metres", FOOT: "feet", US_FOOT: "U
 OtherHeights = Tuple[str, np.ndarray, Optional[float]]
 # Nodata values in the place of heights, in any unit; and values that are nodata only if the ground
 # is farther away than so many metres.
-_NODATA = (-9999.0, -999.0, -99.0, 9999.0, -32768.0, -32767.0)
+_NODATA = (-999.0, -999.9, -999.99, -99.0, -99.9, -99.99, 9999.0, 9999.9, 9999.99, 32767.0)
 _DOUBTFUL = (0.0, -1.0, 999.0)
 _ELSEWHERE = 5.0
-# Metres, or feet: no land is so high.
-_LIMIT = 50_000.0
+# Limits in metres or feet: no land is so low or so high.
+_LOWEST, _HIGHEST = -1_500.0, 50_000.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -132,7 +132,7 @@ class Checkpoints(Geometry):
 
 def is_height(values: np.ndarray) -> np.ndarray:
     """Return which numbers can be heights."""
-    return np.isfinite(values) & (np.abs(values) < _LIMIT) & ~np.isin(values, _NODATA)
+    return (values > _LOWEST) & (values < _HIGHEST) & ~np.isin(values, _NODATA)
 
 
 def has_height(given: np.ndarray, ground: np.ndarray, unit: float) -> np.ndarray:
