@@ -68,7 +68,7 @@ class Place(NamedTuple):
             return Path(scenes.__file__).parent
         if self.tile:
             return data.real(self.tile.name)
-        return data.FOLDER / "isprs" / f"{self.name}.laz"
+        return data.find(f"isprs/{self.name}.laz")
 
 
 def places(is_quick: bool) -> list[Place]:

@@ -26,7 +26,7 @@ from bare_earth.algorithms.tools.above_ground import buildings
 from bare_earth.algorithms.tools.above_ground.classes import AboveGround, classes_above_ground
 from benchmarks.clouds import classify_cloud
 
-from .data import FOLDER, read_cloud
+from .data import read_cloud, real
 from .scenes import REPORTING_SEEDS, TUNING_SEEDS, make
 
 PAGE = Path(__file__).parent / "results" / "above_ground.md"
@@ -64,7 +64,7 @@ class Sample(NamedTuple):
     @classmethod
     def of_file(cls, name: str) -> tuple[Sample, PointCloud]:
         """Return a real tile, in metres from its corner, and its cloud."""
-        cloud = read_cloud(FOLDER / "real" / name)
+        cloud = read_cloud(real(name))
         frame = survey_frame(cloud.crs)
         units = frame.horizontal_unit, frame.horizontal_unit, frame.vertical_unit
         columns = [

@@ -42,7 +42,7 @@ class Land:
 
     def __init__(self, name: str) -> None:
         tile = next((real for real in data.REAL if real.title == name), None)
-        path = data.real(tile.name) if tile else data.FOLDER / "isprs" / f"{name}.laz"
+        path = data.real(tile.name) if tile else data.find(f"isprs/{name}.laz")
         self.is_here = path.exists()
         if self.is_here:
             self._cloud, self._reference = data.load(path)

@@ -11,9 +11,16 @@ import numpy as np
 from bare_earth.algorithms.las.cloud import PointCloud
 from bare_earth.algorithms.las.reading import read_cloud
 
+from ..cache import FOLDER as CACHE
+
+_ROOT = Path(__file__).parents[2]
+_BESIDE = _ROOT.parent / "shared" / "data"
+# Where they are, and where `python -m benchmarks.data fetch` brings them.
 FOLDER = Path(
-    os.environ.get("BARE_EARTH_DATA", Path(__file__).parents[1] / ".." / "shared" / "data")
+    os.environ.get("BARE_EARTH_DATA") or (_BESIDE if _BESIDE.is_dir() else CACHE.parent / "data")
 )
+# The clouds that are in the repository, by the same names.
+COMMITTED = _ROOT / "tests" / "data"
 
 
 class RealTile(NamedTuple):
@@ -79,6 +86,12 @@ REAL = (
 )
 
 
+def find(name: str) -> Path:
+    """Return where a file of the data folder is, or would be."""
+    committed = COMMITTED / name
+    return committed if committed.exists() and not (FOLDER / name).exists() else FOLDER / name
+
+
 def isprs() -> list[Path]:
     """Return the samples of the ISPRS filter test (Sithole & Vosselman 2004) that are here."""
     return sorted((FOLDER / "isprs").glob("samp*.laz"))
@@ -86,7 +99,7 @@ def isprs() -> list[Path]:
 
 def real(name: str) -> Path:
     """Return the path of a real tile."""
-    return FOLDER / "real" / name
+    return find(f"real/{name}")
 
 
 def load(path: Path) -> tuple[PointCloud, np.ndarray]:
