@@ -4,8 +4,8 @@
 help:  ## list the targets
 	@sed -n 's/^\([a-z-]*\):.*## /  \1\t/p' Makefile | expand -t 14
 
-demo:  ## classify LAS=tile.laz (TRUTH=reference.laz), or a generated scene, into demo-output/; JOB=survey: the data of a tutorial
-	@tools/environment python -m demo $(if $(JOB),--job $(JOB)) $(if $(LAS),"$(LAS)") $(if $(TRUTH),--truth "$(TRUTH)")
+demo:  ## classify LAS=tile.laz (TRUTH=reference.laz), LAND=mountain, campus or court, or a generated scene, into demo-output/; QGIS=1: by an installed QGIS; JOB=survey: the data of a tutorial
+	@tools/environment demo -m demo $(if $(JOB),--job $(JOB)) $(if $(LAND),--land $(LAND)) $(if $(QGIS),--qgis) $(if $(LAS),"$(LAS)") $(if $(TRUTH),--truth "$(TRUTH)")
 
 test:  ## run all that follows, installing a QGIS if there is none
 	@tools/test core lint qgis

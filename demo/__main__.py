@@ -1,6 +1,6 @@
 """Classify a tile, or a scene whose truth is known, as a user would, and draw what came out.
 
-A QGIS that is installed is asked, by qgis_process, and the command line where there is none.
+The command line classifies, or with `--qgis` the plugin in the installed QGIS, by qgis_process.
 """
 
 from __future__ import annotations
@@ -18,7 +18,8 @@ from typing import Sequence
 from bare_earth.algorithms.tools.assess import AssessmentOptions, assess_files
 
 from .jobs import JOBS, write_job
-from .picture import draw
+from .land import LANDS, write_unclassified
+from .picture import Truth, draw
 from .scene import GROUND_CLASSES, write_scene
 
 _OUTPUT = Path("demo-output")
@@ -33,6 +34,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser = argparse.ArgumentParser(prog="make demo", description=__doc__)
     parser.add_argument("cloud", type=Path, nargs="?", help="a tile; a generated scene without it")
     parser.add_argument("--truth", type=Path, help="the same points with their true classes")
+    parser.add_argument("--land", choices=list(LANDS), help="a tile of real land")
+    parser.add_argument("--qgis", action="store_true", help="by qgis_process of an installed QGIS")
     parser.add_argument("--job", choices=list(JOBS), help="only write the data of a tutorial")
     options = parser.parse_args(arguments)
     if options.job is not None:
@@ -41,15 +44,23 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return 0
     if options.truth is not None and options.cloud is None:
         parser.error("a truth belongs to a tile: give both")
+    if options.land is not None and options.cloud is not None:
+        parser.error("give a tile or --land, not both")
     for path in filter(None, (options.cloud, options.truth)):
         if not path.is_file():
             return _fail(f"There is no file {path}.")
     _OUTPUT.mkdir(exist_ok=True)
-    cloud, truth, classes, northing = options.cloud, options.truth, (2,), None
-    if cloud is None:
+    cloud, truth, northing = options.cloud, options.truth, None
+    assessing = AssessmentOptions()
+    if options.land is not None:
+        cloud, truth = _OUTPUT / f"{options.land}.laz", LANDS[options.land].path
+        count = write_unclassified(truth, cloud)
+        assessing = AssessmentOptions(ignored_classes=LANDS[options.land].unlabelled)
+        print(f"{LANDS[options.land].title}, {count:,} points: {cloud} (with its classes: {truth})")
+    elif cloud is None:
         cloud, truth = _OUTPUT / "scene.laz", _OUTPUT / "truth.laz"
         count = write_scene(cloud, truth, checkpoints=_OUTPUT / "checkpoints.csv")
-        classes, northing = GROUND_CLASSES, _SCENE_NORTHING
+        assessing, northing = AssessmentOptions(ground_classes=GROUND_CLASSES), _SCENE_NORTHING
         print(f"Generated a scene of {count:,} points: {cloud} (true classes: {truth})")
     results = [_OUTPUT / name for name in ("classified.laz", "dtm.tif", "hillshade.tif")]
     picture, errors = _OUTPUT / "picture.png", _OUTPUT / "errors.txt"
@@ -58,32 +69,33 @@ def main(arguments: Sequence[str] | None = None) -> int:
         result.unlink(missing_ok=True)
 
     start = time.monotonic()
-    by = _classify(cloud, *results)
+    by = _by_qgis(cloud, *results) if options.qgis else _by_command(cloud, *results)
     if by is None or not all(result.is_file() for result in results):
         return _fail("The classification failed; what it said is above.")
     print(f"Classified by {by} in {time.monotonic() - start:.1f} s")
 
     if truth is not None:
-        assessment = assess_files(
-            results[0], truth, options=AssessmentOptions(ground_classes=classes)
-        )
+        assessment = assess_files(results[0], truth, options=assessing)
         lines = assessment.lines()
         errors.write_text("\n".join(lines) + "\n", encoding="utf-8")
         print("\nAgainst the truth:", *lines, sep="\n  ")
-    title = "Generated scene" if options.cloud is None else cloud.name
-    draw(*results, picture, truth, classes, northing, f"{title}: ground by {by}")
+    title = LANDS[options.land].title if options.land else cloud.name
+    title = "Generated scene" if cloud.name == "scene.laz" else title
+    known = Truth(truth, assessing.ground_classes, assessing.ignored_classes) if truth else None
+    draw(*results, picture, known, northing, f"{title}: ground by {by}")
     print("\nTo look at:", picture, *results, sep="\n  ")
     return 0
 
 
-def _classify(cloud: Path, classified: Path, dtm: Path, hillshade: Path) -> str | None:
-    """Return what did it, or None if that failed."""
-    if shutil.which("qgis_process") is None:
-        print("No QGIS is installed: classifying by the command line.")
-        command = [sys.executable, "-m", "bare_earth.algorithms", "classify", cloud, classified]
-        command += ["--dtm", dtm, "--hillshade", hillshade, "--verbose"]
-        return "the command line" if _run(*command) else None
-    print("A QGIS is installed: classifying by qgis_process.")
+def _by_command(cloud: Path, classified: Path, dtm: Path, hillshade: Path) -> str | None:
+    """Classify by the command line, and return what did it, or None if that failed."""
+    command = [sys.executable, "-m", "bare_earth.algorithms", "classify", cloud, classified]
+    command += ["--dtm", dtm, "--hillshade", hillshade, "--verbose"]
+    return "the command line" if _run(*command) else None
+
+
+def _by_qgis(cloud: Path, classified: Path, dtm: Path, hillshade: Path) -> str | None:
+    """Classify by the plugin in QGIS, and return what did it, or None if that failed."""
     # In Debian 12 the wrapper of this name adds an option that it then does not know.
     qgis_process = "qgis_process.bin" if shutil.which("qgis_process.bin") else "qgis_process"
     # It fails where the plugin is enabled already; if it is not, the next command fails.

@@ -5,11 +5,11 @@ from __future__ import annotations
 import argparse
 from dataclasses import dataclass
 from pathlib import Path
+from typing import NamedTuple
 
 import laspy
 import matplotlib
 import numpy as np
-import rasterio
 
 matplotlib.use("Agg")
 
@@ -18,7 +18,6 @@ from matplotlib.colors import ListedColormap
 from matplotlib.patches import Patch
 
 from bare_earth.algorithms.crs.system import unit_symbol
-from bare_earth.algorithms.rasters.content import NO_CELLS
 from bare_earth.algorithms.rasters.geotiff import read_raster
 
 GROUND = 2
@@ -55,9 +54,17 @@ class View:
     kind: np.ndarray
     dtm: np.ndarray
     hillshade: np.ndarray
-    transform: rasterio.Affine
+    geotransform: tuple[float, ...]
     extent: tuple[float, float, float, float]
     units: tuple[str, str]
+
+
+class Truth(NamedTuple):
+    """The same points with their true classes."""
+
+    path: Path
+    ground_classes: tuple[int, ...] = (GROUND,)
+    unlabelled: tuple[int, ...] = ()  # classes of points whose truth is not known
 
 
 def draw(
@@ -65,8 +72,7 @@ def draw(
     dtm: Path,
     hillshade: Path,
     target: Path,
-    truth: Path | None = None,
-    ground_classes: tuple[int, ...] = (GROUND,),
+    truth: Truth | None = None,
     northing: float | None = None,
     title: str = "",
 ) -> None:
@@ -78,16 +84,14 @@ def draw(
         What the classification made.
     target : Path
         The PNG file to write.
-    truth : Path, optional
-        The same points with their true classes; errors are marked then.
-    ground_classes : tuple of int
-        The classes of the truth that are ground.
+    truth : Truth, optional
+        With it, errors are marked.
     northing : float, optional
         Where to cut the profile; where most is standing on the ground if it is not given.
     title : str
         The heading.
     """
-    view = _view(cloud, dtm, hillshade, truth, ground_classes)
+    view = _view(cloud, dtm, hillshade, truth)
     count = 2 if truth is None else 3
     figure = pyplot.figure(figsize=(6.0 * count, 10.4), layout="constrained", dpi=110)
     figure.suptitle(title, **_SUPTITLE)
@@ -106,31 +110,31 @@ def draw(
     pyplot.close(figure)
 
 
-def _view(
-    cloud: Path, dtm: Path, hillshade: Path, truth: Path | None, ground_classes: tuple[int, ...]
-) -> View:
+def _view(cloud: Path, dtm: Path, hillshade: Path, truth: Truth | None) -> View:
     las = laspy.read(cloud)
     ground = np.asarray(las.classification) == GROUND
     kind = np.where(ground, 1, 2).astype(np.uint8)
     if truth is not None:
-        should = np.isin(np.asarray(laspy.read(truth).classification), ground_classes)
-        kind[should & ~ground] = 3
-        kind[~should & ground] = 4
-    with rasterio.open(dtm) as raster:
-        heights = raster.read(1, masked=True).filled(np.nan)
-        transform, bounds = raster.transform, raster.bounds
-    with rasterio.open(hillshade) as raster:
-        shade = raster.read(1)
-    extent = bounds.left, bounds.right, bounds.bottom, bounds.top
-    frame = read_raster(dtm, window=NO_CELLS).frame
+        classes = np.asarray(laspy.read(truth.path).classification)
+        should, is_known = (
+            np.isin(classes, truth.ground_classes),
+            ~np.isin(classes, truth.unlabelled),
+        )
+        kind[is_known & should & ~ground] = 3
+        kind[is_known & ~should & ground] = 4
+    terrain, shade = read_raster(dtm), read_raster(hillshade).heights
+    west, width, _, north, _, height = terrain.geotransform
+    rows, columns = terrain.heights.shape
+    extent = west, west + columns * width, north + rows * height, north
+    frame = terrain.frame
     units = unit_symbol(frame.horizontal_unit), unit_symbol(frame.vertical_unit)
     # Plain arrays: each access to a column of laspy scales it anew.
     x, y, z = (np.asarray(column) for column in (las.x, las.y, las.z))
-    return View(x, y, z, kind, heights, shade, transform, extent, units)
+    return View(x, y, z, kind, terrain.heights, shade, terrain.geotransform, extent, units)
 
 
 def _draw_relief(panel: pyplot.Axes, view: View) -> None:
-    shade = np.ma.masked_equal(view.hillshade, 0)
+    shade = np.ma.masked_invalid(view.hillshade)
     panel.imshow(shade, cmap="gray", extent=view.extent, vmin=0, vmax=255)
     # A few odd heights must not take the colours of all the rest.
     low, high = np.nanpercentile(view.dtm, (1, 99))
@@ -178,7 +182,7 @@ def _draw_profile(panel: pyplot.Axes, view: View, northing: float, with_errors: 
     half = (north - south) / 200
     cut = np.flatnonzero(np.abs(view.y - northing) < half)
     column = np.arange(view.dtm.shape[1])
-    row = int((northing - view.transform.f) / view.transform.e)
+    row = int((northing - view.geotransform[3]) / view.geotransform[5])
     line = view.dtm[min(max(row, 0), view.dtm.shape[0] - 1)]
     names = list(_COLOURS)
     for kind in range(1, 5):
@@ -186,7 +190,7 @@ def _draw_profile(panel: pyplot.Axes, view: View, northing: float, with_errors: 
         size = 2.5 if kind < 3 else 14
         colour = _COLOURS[names[kind]]
         panel.scatter(view.x[which] - west, view.z[which], size, colour, linewidths=0, zorder=kind)
-    centres = (column + 0.5) * view.transform.a
+    centres = (column + 0.5) * view.geotransform[1]
     panel.plot(centres, line, color="black", linewidth=1.0, zorder=5)
     spread = np.nanmax(line) - np.nanmin(line)
     # Noise far above and far below would flatten all the rest.
@@ -249,8 +253,12 @@ def main() -> None:
         parser.add_argument(name, type=Path)
     parser.add_argument("--truth", type=Path)
     parser.add_argument("--ground-classes", type=int, nargs="+", default=(GROUND,))
-    options = vars(parser.parse_args())
-    draw(**options, title=options["cloud"].name)
+    options = parser.parse_args()
+    truth = Truth(options.truth, tuple(options.ground_classes)) if options.truth else None
+    draw(
+        options.cloud, options.dtm, options.hillshade, options.target, truth,
+        title=options.cloud.name,
+    )  # fmt: skip
 
 
 if __name__ == "__main__":

@@ -107,7 +107,7 @@ def test_the_picture_is_drawn_with_and_without_truth(demo, scene, tmp_path, monk
         demo("picture").pyplot.Figure, "savefig",
         lambda figure, target: figures.append(figure) or save(figure, target),
     )  # fmt: skip
-    for number, known in enumerate((None, truth)):
+    for number, known in enumerate((None, demo("picture").Truth(truth))):
         target = tmp_path / f"{number}.png"
         demo("picture").draw(truth, tmp_path / "dtm.tif", tmp_path / "shade.tif", target, known)
         assert target.read_bytes().startswith(b"\x89PNG") and target.stat().st_size > 20_000
@@ -131,3 +131,14 @@ def test_the_profile_keeps_away_from_the_border(demo):
         ("m", "m"),
     )
     assert abs(picture.busiest_northing(view) - 60.0) < 2.0
+
+
+def test_real_land_is_classified_and_compared_with_its_labels(demo, tmp_path, monkeypatch, capfd):
+    pytest.importorskip("rasterio")
+    pytest.importorskip("matplotlib")
+    monkeypatch.chdir(tmp_path)
+    assert demo("__main__").main(["--land", "court"]) == 0
+    # Points without a label do not count.
+    assert "points                   2,447" in capfd.readouterr().out
+    assert (tmp_path / "demo-output" / "picture.png").stat().st_size > 20_000
+    assert not np.asarray(laspy.read(tmp_path / "demo-output/court.laz").classification).any()
