@@ -35,6 +35,10 @@ VEGETATED = """Forest|Nadelwald|brush land|VVA|Vegetated|tall grass|Forêt
     |Alder|Eucalyptus|Erlen|Buschwerk|hohe Wiese|Ronciers|Canne à sucre|Prairie haute|Populieren
     |Onderbegroeiing|Girasoles|Arrozal|Sottobosco|Erba alta|Brughiera|Milho|Capim alto|Pinhal
     |Barrskog|Højt græs|Løvskog|Kratt|Mäntymetsä|Korkea ruoho|Las|Las sosnowy|Wysoka trawa|Krzaki
+    |Marsh grass|Blackberries|Tall meadow|Weizenacker|Kartoffelacker|Baumreihe|Mangroven|Champ de céréales
+    |Pantano|Humedal|Zona boscosa|Mangrovie|Milharal|Cana-de-açúcar|Brejo|Korenveld|Ondergroei|Majsfält
+    |HØJT_GRÆS|Hvedemark|Underskov|Underskog|Maissipelto|Kosteikko|Mokradło|Żywopłot|Pole kukurydzy
+    |Kukuřičné pole|Podrost|Mocsár|Sövény|Mlaștină|Gard viu|Močvara|Živa meja|Bataklık|Ayçiçeği
     |Les|Listnatý les|Vysoká tráva|Keře|Kukorica|Pădure|Grmlje|Koruza|Orman"""
 OPEN = """NVA|non-vegetated|unvegetated|no trees|Street|asphalt|grass
     |Woodward Street|Treeless|Wooden deck|Waldweg|Open terrain|Urban|OpenTerrain|Short grass
@@ -47,6 +51,9 @@ OPEN = """NVA|non-vegetated|unvegetated|no trees|Street|asphalt|grass
     |Plowed field|Deforested|Steinbruch|Clairière|Déboisé|Onbegroeid|Asfalt|Barbecho|Gravilla
     |Calle de las flores|Via del Bosco|Erba bassa|Terreno nudo|Relva curta|Sem vegetação
     |Skogsväg|Kort gräs|Uden vegetation|Skovvej|Ingen vegetasjon|Metsätie|Lyhyt ruoho
+    |Holzterrasse|städtisch|Avenida del Bosque|Terraza de madera|Terrazza in legno|Trilha na floresta
+    |Boomloos|Bez drzew|Drewniany taras|Skogsgatan|Skogsstig|Trädäck|Skovsti|Metsäpolku|Bez stromů
+    |Erdő utca|Fără copaci|Šumski put|Orman Caddesi|Terreno aperto|Teren otwarty
     |Droga leśna|Niska trawa|Bez roślinności|Lesní cesta|Nízká tráva|Drum forestier|Orman yolu"""
 
 

@@ -17,9 +17,7 @@ VOCABULARY.read_string(Path(__file__).with_name("words.ini").read_text(encoding=
 _LISTS = {name: words.split() for name, words in VOCABULARY["columns"].items()}
 # Names of columns by role; earlier names are preferred to later ones.
 NAMES = {role: _LISTS[role] for role in ("x", "y", "z", "cover", "type", "name")}
-_LETTERS = str.maketrans(
-    {"ø": "o", "Ø": "O", "ł": "l", "Ł": "L", "ß": "ss", "æ": "a", "\u0131": "i"}
-)
+_LETTERS = str.maketrans("øØłŁæÆđĐ\u0131", "oOlLaAdDi") | {ord("ß"): "ss"}
 _PARTS = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+|\d+")
 
 

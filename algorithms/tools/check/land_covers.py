@@ -50,7 +50,8 @@ _ENDS = tuple(
 )
 # With these endings the word before them decides: Maisfeld, Waldboden, cornfield.
 _NEUTRAL_ENDS = re.compile(
-    "(.{3,})(?:felder|feld|fields|field|flachen|flache|gebiet|bestand|boden|rand|veld|velden|zone)"
+    "(.{3,})(?:felder|feld|fields|field|flachen|flache|gebiet|bestand|boden|rand|veld|velden|zone"
+    "|acker|akker|aker|falt|mark|pelto|tabla|reihe|streifen|saum)"
 )
 _WITHOUT = re.compile("(.{3,})(?:less|los|lose|loses|losen|frei|freie|freies)|(?:un|non|on)(.+)")
 _BETWEEN = re.compile(r"[,;/+&()|:]|\s[-\u2013]\s")
@@ -103,7 +104,10 @@ class LandCovers(NamedTuple):
         first = marked[0]
         between = words[first + 1 : marked[1]] if marked[1:] else []
         is_first = words[first] in _LISTS["first decides"] or _has("of", between)
-        return kinds[first if is_first else marked[-1]]
+        last = marked[-1]
+        if VVA in kinds and words[last] in _LISTS["low plants"]:  # marsh grass
+            return VVA
+        return kinds[first if is_first else last]
 
     def _of_word(self, word: str) -> str:
         """Return the kind of land that a word names."""
