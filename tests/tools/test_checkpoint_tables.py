@@ -37,7 +37,7 @@ VEGETATED = """Forest|Nadelwald|brush land|VVA|Vegetated|tall grass|Forêt|Corn|
     |Weizenacker|Kartoffelacker|Baumreihe|Mangroven|Champ de céréales|Pantano|Humedal|Zona boscosa
     |Mangrovie|Milharal|Cana-de-açúcar|Brejo|Korenveld|Ondergroei|Majsfält|HØJT_GRÆS|Hvedemark
     |Underskov|Underskog|Maissipelto|Kosteikko|Mokradło|Żywopłot|Pole kukurydzy|Kukuřičné pole
-    |Podrost|Mocsár|Sövény|Mlaștină|Gard viu|Močvara|Živa meja|Bataklık|Ayçiçeği|Les|Listnatý les
+    |Podrost|Mocsár|Sövény|Mlaștină|Gard viu|Močvara|Živa meja|Ayçiçeği|Les|Listnatý les
     |Vysoká tráva|Keře|Kukorica|Pădure|Grmlje|Koruza|Orman"""
 OPEN = """NVA|non-vegetated|unvegetated|no trees|Street|asphalt|grass|Woodward Street
     |Treeless|Wooden deck|Waldweg|Open terrain|Urban|OpenTerrain|Short grass|Forest road|Oak Avenue
