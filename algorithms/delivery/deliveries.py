@@ -129,8 +129,9 @@ DELIVERIES = {
     ),
     "flood": Delivery(
         "Flood model",
-        "The terrain as water meets it: bridges are removed, lakes and rivers are flat and come as"
-        " polygons and breaklines, and buildings have a class.",
+        "The terrain as water meets it: decks of bridges are left out, water that is found goes on"
+        " below them, lakes and rivers are flat and come as polygons and breaklines, and buildings"
+        " have a class.",
         rasters=("dtm", "hillshade", "dsm", "expected_error", "error_cause"),
         pictures=("hillshade", "dtm"),
         finest=0.5,

@@ -77,7 +77,7 @@ def delivery_html(job: DeliveryJob, root: Path) -> str:
     crs = survey.crs.name or "not stated"
     figures = [("CRS", crs), *_figures(summary), *_accuracy(summary, void_distance)]
     parts = [
-        # Whoever reads that bridges are removed must know by then what that leaves.
+        # Whoever reads that decks are left out must know by then what that leaves.
         paragraph(summary.water.doubt if summary.water else "", kind="doubt"),
         paragraph(content.about),
         section("In figures", table(figures, is_named=True)),

@@ -1,10 +1,11 @@
 """Water below bridges, on land where it is known."""
 
 import json
+import re
 
 import numpy as np
 import pytest
-from checkpoints import write
+from checkpoints import EAST, NORTH, write
 from water_scenes import LEVEL, Scene, contains, lake, overlap, river, run
 
 import bare_earth
@@ -204,7 +205,10 @@ def test_bridges_without_water_below_them_are_told(tmp_path, capsys):
         write(tmp_path / f"{name}.laz", *columns, scene.classes)
         run("water", tmp_path / f"{name}.laz", tmp_path / f"{name}.geojson")
         told.append(capsys.readouterr().err)
-    assert "1 bridge has no water below it that was found" in told[0]
+    place = re.search(r"1 bridge has no water below it that was found \(at (\d+) (\d+)\)", told[0])
+    assert [int(value) for value in place.groups()] == pytest.approx(
+        [EAST + MIDDLE, NORTH + 150], abs=15
+    )
     assert "bridge has no water" not in told[1]
 
 
@@ -219,7 +223,8 @@ def test_the_page_of_a_flood_model_begins_with_bridges_that_may_dam_a_stream(tmp
     how = {"delivery": "flood", "method": "slope", "bridges": "keep", "hold_out_share": None}
     bare_earth.deliver(tmp_path / "dry.laz", folder, **how)
     words = (folder / "index.html").read_text("utf-8").split("</h1>")[1]
-    assert words.index("1 bridge has no water below it") < words.index("bridges are removed")
+    assert words.index("1 bridge has no water below it") < words.index("decks of bridges are")
+    assert "bridges are removed" not in words and "(at " in words
     record = json.loads((folder / "delivery.json").read_text("utf-8"))
     assert record["water"]["dry_bridges"] == 1
 

@@ -73,17 +73,19 @@ def _across(seen: np.ndarray, joined: np.ndarray, hiding: np.ndarray, most: floa
     return between
 
 
-def decks_without_water(grid: WaterGrid, polygons: tuple[Polygon, ...]) -> int:
-    """Return how many decks have no cell in any polygon of water, in the frame of the grid."""
+def decks_without_water(
+    grid: WaterGrid, polygons: tuple[Polygon, ...]
+) -> tuple[tuple[float, float], ...]:
+    """Return the middles of decks without a cell in any polygon of water, in metres."""
     from scipy.ndimage import label
 
     labels, count = label(dilation(grid.decks, max(_EDGE / grid.cell, _EDGE_CELLS)))
-    if not (count and polygons):
-        return int(count)
     rows, columns = np.nonzero(labels)
+    decks = labels[rows, columns]
     x, y = (columns + grid.column + 0.5) * grid.cell, (rows + grid.row + 0.5) * grid.cell
-    wet = Area(None, polygons).contains(x, y)
-    return int(count) - len(np.unique(labels[rows[wet], columns[wet]]))
+    wet = set(decks[Area(None, polygons).contains(x, y)].tolist()) if polygons else set()
+    dry = [decks == number for number in range(1, count + 1) if number not in wet]
+    return tuple((float(x[deck].mean()), float(y[deck].mean())) for deck in dry)
 
 
 def beside_decks(grid: WaterGrid, window: Window) -> np.ndarray:

@@ -37,6 +37,8 @@ FIELDS: dict[str, type] = {
 }  # fmt: skip
 # Fields of the breaklines: ID is that of the polygon, or the number of a breakline of the user.
 LINE_FIELDS: dict[str, type] = {"ID": int, "KIND": str}
+# Bridges that a warning names.
+_MOST_PLACES = 5
 
 
 @dataclass(frozen=True)
@@ -51,6 +53,7 @@ class WaterSummary:
     min_area: float  # square metres
     min_width: float  # metres, of a river
     dry_bridges: int = 0  # decks of bridges with no water below them that was found
+    dry_places: tuple[tuple[float, float], ...] = ()  # their middles, in units of the CRS
 
     @property
     def doubt(self) -> str:
@@ -58,10 +61,12 @@ class WaterSummary:
         if not self.dry_bridges:
             return ""
         words = "bridge has no water below it", "bridges have no water below them"
+        places = ", ".join(f"{x:.0f} {y:.0f}" for x, y in self.dry_places[:_MOST_PLACES])
+        more = " and others" if self.dry_places[_MOST_PLACES:] else ""
         return (
-            f"{counted(self.dry_bridges, *words)} that was found: there the terrain follows from"
-            " the ground beside the deck, and can dam a stream. Where one flows, give its water as"
-            " a polygon."
+            f"{counted(self.dry_bridges, *words)} that was found (at {places}{more}). The deck is"
+            " left out, but the terrain below follows from the ground beside it, and can dam a"
+            " stream. Where one flows, give its water as a polygon."
         )
 
     @property
@@ -172,10 +177,11 @@ def water_of(
     bodies = find_water(grid, how, progress.part(0.9, 1.0))
     outlines = tuple(tuple(ring[:, :2] for ring in body.rings) for body in bodies)
     kinds, grades = [body.kind for body in bodies], [body.grade for body in bodies]
+    dry = decks_without_water(grid, outlines)
     summary = WaterSummary(
         kinds.count("lake"), kinds.count("river"), sum(body.area for body in bodies),
         {name: grades.count(name) for name in GRADES if name in grades}, cell, how.min_area,
-        how.min_width, decks_without_water(grid, outlines),
+        how.min_width, len(dry), tuple((x / unit, y / unit) for x, y in dry),
     )  # fmt: skip
     if summary.doubt:
         progress.warning(summary.doubt)
