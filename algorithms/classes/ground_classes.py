@@ -10,10 +10,12 @@ import numpy as np
 
 from ..core.errors import BareEarthError
 from ..core.parameters import ParameterSet, parameter, parameter_of
+from ..core.progress import Progress
 from ..las.cloud import PointCloud
 from .kept_classes import used
 from .point_counts import count_classes
 from .selection import Selection
+from .without_ground import WithoutGround, refuse_groundless, tell_of_groundless
 
 # The flag of points of rails and roads, which count as ground if they lie on it.
 ROADS_FLAG = "roads"
@@ -79,15 +81,32 @@ class GroundClasses(ParameterSet):
         """Refuse a file without ground."""
         if counts.ground:
             return
-        wanted = " or ".join(str(code) for code in self.ground_classes)
         if counts.classes[list(self.ground_classes)].any():
             why = "withheld. Clear that flag first."
             if self.overlap == "leave-out":
                 why = "withheld or points of overlap. Use points of overlap, too."
-            raise BareEarthError(f"All ground points of {path} (class {wanted}) are {why}")
+            raise BareEarthError(f"All ground points of {path} (class {self._wanted}) are {why}")
         classes = np.flatnonzero(counts.classes)
         present = ("classes " if classes[1:].size else "class ") + ", ".join(map(str, classes))
         raise BareEarthError(
-            f"{path} has no ground points: none is of class {wanted}, all are of"
+            f"{path} has no ground points: none is of class {self._wanted}, all are of"
             f" {present}. Classify its ground first, or choose other ground classes."
         )
+
+    def tell_of_survey(
+        self, files: Sequence[tuple[int, WithoutGround]], progress: Progress
+    ) -> None:
+        """Warn of files without ground, given how many ground points each has; refuse them if no
+        file has any.
+        """
+        without = [file for count, file in files if not count]
+        ground = f"ground points of class {self._wanted}"
+        if without and len(without) == len(files):
+            advice = "Classify the ground first, or choose other ground classes."
+            refuse_groundless([file.name for file in without], ground, advice)
+        tell_of_groundless(without, progress, ground)
+
+    @property
+    def _wanted(self) -> str:
+        """The ground classes in words."""
+        return " or ".join(map(str, self.ground_classes))

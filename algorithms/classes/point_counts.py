@@ -59,6 +59,19 @@ class PointCounts:
         for name, mask in masks.items():
             setattr(self, name, getattr(self, name) + int(np.count_nonzero(mask)))
 
+    @property
+    def why_none(self) -> str:
+        """A sentence that says why no point can be ground; empty if some can."""
+        if self.of_returns:
+            return ""
+        if self.eligible:
+            return "None is a last or single return."
+        if not self.free:
+            return "All are withheld."
+        classes = np.flatnonzero(self.classes_within).tolist()
+        words = "class" if len(classes) == 1 else "classes"
+        return f"All are of {words} {', '.join(map(str, classes))}."
+
     def why_empty(self, place: str) -> str:
         """Return a sentence that says why no point takes part, and what to change."""
         if self.eligible:

@@ -19,6 +19,10 @@ class BareEarthError(Exception):
         super().__init__(_ADDRESS.sub(r"\1\2", printable(str(text))))
 
 
+class NoGround(BareEarthError):
+    """No point of a place can be ground, such as where all points lie on a roof."""
+
+
 class OutputInUse(BareEarthError):
     """An old output cannot be replaced, since another program has it open or it is read-only."""
 

@@ -6,8 +6,6 @@ import re
 from typing import Sequence
 
 _NAMED = re.compile(r"`([a-z_]+)(\(\))?`")
-# Most names in a sentence, which gives the number of the others.
-_MOST_NAMES = 3
 
 
 def counted(count: int, single: str, several: str = "") -> str:
@@ -17,10 +15,10 @@ def counted(count: int, single: str, several: str = "") -> str:
     return f"{count:,} {single if count == 1 else several or single + 's'}"
 
 
-def first_of(names: Sequence[str]) -> str:
+def first_of(names: Sequence[str], most: int = 3) -> str:
     """Return the first names of many in words, and how many more there are."""
-    more = len(names) - _MOST_NAMES
-    return ", ".join(names[:_MOST_NAMES]) + (f" and {more:,} more" if more > 0 else "")
+    more = len(names) - most
+    return ", ".join(names[:most]) + (f" and {more:,} more" if more > 0 else "")
 
 
 class Keywords:

@@ -245,7 +245,7 @@ class TileResult:
         self.class_counts += count_classes(classes if kept is None else classes[kept[where]])
 
     def check(self, progress: Progress) -> None:
-        """Report on one of many files, or refuse it if it has no result."""
+        """Report on one of many files."""
         for result, values in zip(self.results, self._values):
             result.check(progress, values.failure)
 

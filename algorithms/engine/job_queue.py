@@ -13,6 +13,7 @@ from ..core.errors import BareEarthError
 from ..core.progress import Progress
 from ..core.temporary import remove
 from ..core.words import first_of
+from ..las.lasfile import LasFile
 from .blockwise import ended
 from .jobs import BlockJob, JobResult, TileJob
 from .memory import GIGABYTE
@@ -40,7 +41,7 @@ class JobQueue:
         kept: Collection[Path] = (),
     ) -> None:
         self.done: list[TileSummary] = []  # of the files that were written
-        self.empty_count = 0  # files without points to write
+        self.empty: list[LasFile] = []  # files without points to write
         self.failures: dict[Path, str] = {}  # why the other files were not written, by input
         self.lost: list[str] = []  # why blocks failed
         self.costs: list[JobCost] = []  # of the finished jobs
@@ -193,7 +194,7 @@ class JobQueue:
         if outcome.failure is not None:
             self.failures[job.tile.path] = outcome.failure
         elif outcome.result is None:
-            self.empty_count += 1
+            self.empty.append(job.tile)
         else:
             self.done.append(outcome.result)
             self._progress.info(outcome.result.text)

@@ -15,7 +15,7 @@ from typing import Iterator, NamedTuple
 
 import numpy as np
 
-from ..core.errors import BareEarthError, Cancelled
+from ..core.errors import BareEarthError, Cancelled, NoGround
 from ..core.files import replacing
 from ..core.progress import Notes, Progress
 from ..core.threads import SharedThreads
@@ -166,6 +166,8 @@ class PointJob(BlockJob):
                 parts.append((cloud.path, self._numbers(cloud)))
                 work.add(cloud, wanted=parts[-1][1] > 0)
             failure = work.failure(share.resources, progress.part(0.3, 0.95), self._is_wanted)
+            if failure is not None and not isinstance(failure, NoGround):
+                raise failure
             progress(1.0)  # ends a job of a run that was cancelled, before it writes
             for number, place in enumerate(self.output.files, start=1):
                 counts: dict[Path, int] = defaultdict(int)
@@ -178,7 +180,7 @@ class PointJob(BlockJob):
                     values = work.store.values(part)[blocks == number]
                     start, ends[path] = ends[path], ends[path] + len(values)
                     of_files[path][start : ends[path]] = values
-                self.output.write(place, of_files, failure)
+                self.output.write(place, of_files, str(failure or ""))
 
     def _numbers(self, cloud: PointCloud) -> np.ndarray:
         """Return for each point the number of its block in this job, from 1; 0 for other blocks."""

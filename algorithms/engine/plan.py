@@ -112,11 +112,12 @@ class Plan:
         self._inputs: dict[tuple[_PlannedBlock, ...], list[Path]] = {}
         self.kept: list[TileSummary] = []  # of the outputs that an earlier run finished
         self.failures: dict[Path, str] = {}  # why files cannot be done
+        # Files without a point to write, as their headers show.
+        self.empty = [tile for tile in survey.tiles if any(step.skips(tile) for step in steps)]
+        skipped = {tile.path for tile in self.empty}
         self.seen = dataclasses.replace(
-            survey, tiles=tuple(t for t in survey.tiles if not any(step.skips(t) for step in steps))
+            survey, tiles=tuple(tile for tile in survey.tiles if tile.path not in skipped)
         )
-        # Files of which no point is to be written, as their headers show.
-        self.empty_count = len(survey.tiles) - len(self.seen.tiles)
         # The points of these files take part only in the first step.
         self.surveys = [survey, *[self.seen] * (len(steps) - 1)]
         self.todo: list[LasFile] = []  # the files that are to be done

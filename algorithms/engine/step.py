@@ -184,8 +184,12 @@ class PointStep(Step):
         """Return whether the header of a file shows that none of its points is to be written."""
         return False
 
-    def tell_of_survey(self, done: Sequence[Any], progress: Progress) -> None:
-        """Report on all files together, given their summaries."""
+    def tell_of_survey(
+        self, done: Sequence[Any], empty: Sequence[LasFile], progress: Progress
+    ) -> None:
+        """Report on all files together, given the summaries of those that were written, and those
+        without a point to write; or refuse all of them.
+        """
 
     def numbers(self, part: PointCloud, after: PointCloud, values: np.ndarray) -> dict[str, int]:
         """Count points of a part, before and after, for fields of the summary."""
@@ -243,9 +247,7 @@ class PointResult:
         self._numbers.update(point_count=before.count, **self._step.numbers(before, after, values))
 
     def check(self, progress: Progress, why: str = "") -> None:
-        """Report on one of many files, or refuse it if it has no result; `why` is the reason, if
-        it is known.
-        """
+        """Report on one of many files; `why` is the reason if parts of it have no ground."""
 
     def tell(self, progress: Progress) -> None:
         """Report what was found in a file."""

@@ -143,13 +143,14 @@ class ManyFiles(Execution):
         # The summaries of the finished files.
         self._done = sorted([*plan.kept, *queue.done], key=lambda summary: summary.name)
         self._kept_count = len(plan.kept)
-        self._empty_count = plan.empty_count + queue.empty_count
+        empty = [*plan.empty, *queue.empty]
+        self._empty_count = len(empty)
         self._jobs = queue.costs
         for path, reason in {**plan.failures, **queue.failures}.items():
             self._failures[path.name] = path, reason
-        if self._done or self._empty_count:
+        if self._done or empty:
             try:
-                self._point_steps[0].tell_of_survey(self._done, progress)
+                self._point_steps[0].tell_of_survey(self._done, empty, progress)
             except BareEarthError:  # it refuses all files together
                 for path in (folder / summary.name for summary in queue.done):
                     remove(path)
@@ -193,11 +194,6 @@ class ManyFiles(Execution):
                 else "None of the files has points to write in the area."
             )
         self._copy_empty_files()
-        if self._empty_count:
-            progress.info(
-                f"{self._empty_count:,} files are not written: they have no points to write in the"
-                " area."
-            )
         paths = [target / summary.name for summary in self._done]
         part, stated = progress.part(0.98, 1.0), self._survey.stated
         write_vpc(self.vpc, paths, part, self.output.overview, stated)

@@ -28,7 +28,7 @@ _FAILURE = "no ground"
 class PointValues:
     """The values of a step for the points of a file, in a store with all parts of the file."""
 
-    failure = ""  # why some points have no value; empty if all have one
+    failure = ""  # why a block has no ground; empty if all have some
     # bool, (k,): which points of the last call of `of` lie in blocks that failed; None for no point
     lost: np.ndarray | None = None
 

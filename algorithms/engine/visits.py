@@ -80,14 +80,14 @@ class Work:
         resources: Resources,
         progress: Progress = SILENT,
         is_wanted: Callable[[Block], bool] | None = None,
-    ) -> str:
-        """Let the step work as `done` does; return why it failed, or an empty text."""
+    ) -> BareEarthError | None:
+        """Let the step work as `done` does; return the error that ended it, if any."""
         self.store.finish(progress.part(0.0, 0.1))
         try:
             self._result(resources, progress.part(0.1, 1.0), is_wanted)
         except BareEarthError as error:
-            return str(error)
-        return ""
+            return error
+        return None
 
     def _result(
         self,

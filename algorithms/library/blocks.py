@@ -287,7 +287,7 @@ def points_of(
             ONE_THREAD, progress.part(0.3, 1.0), lambda block: grid.holding(block) == work.place
         )
     if failure:
-        progress.warning(failure)
+        progress.warning(str(failure))
     classified = []
     for place, (cloud, is_inside) in enumerate(clouds_with_masks):
         inside = np.flatnonzero(is_inside)

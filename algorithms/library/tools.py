@@ -183,7 +183,7 @@ def _run_on_points(tool: Tool, values: SimpleNamespace, sets: Sequence[Parameter
 
 def _of_map_tool(command: str) -> Function:
     """Return the function of a tool that makes rasters of points."""
-    from ..tools.ground.step import Summary
+    from ..tools.ground.summary import Summary
     from ..tools.rasters.output import RasterSize
 
     tool = map_tool(command)

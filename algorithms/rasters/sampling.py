@@ -71,6 +71,13 @@ class HeightRaster:
             " EPSG:... INPUT OUTPUT'."
         )
 
+    def covers_nothing(self, points: str) -> BareEarthError:
+        """Return the error for a raster without a value at any of some points."""
+        return BareEarthError(
+            f"{self.path} has no value at any point of {points}. Give a raster that covers the"
+            " points."
+        )
+
     def tell(self, crs: Crs, progress: Progress) -> None:
         """Warn if heights of points in a CRS may not be comparable with those of the raster."""
         facts = read_wkt(self.crs.wkt) if self.crs and self.crs.wkt else None

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Sequence
 
 import numpy as np
 
 from ..classes.ground_classes import ROADS_FLAG, GroundClasses, GroundCounts
+from ..classes.without_ground import WithoutGround
 from ..core.errors import BareEarthError
 from ..core.parameters import ParameterSet, parameter
 from ..core.points import Points
@@ -64,6 +67,14 @@ class HeightSummary(TileSummary):
     class_counts: dict[int, int] = field(default_factory=dict)  # in the output
 
     @property
+    def without_ground(self) -> WithoutGround:
+        """What is told of one of many files without ground."""
+        fate = "measured above the ground of other files"
+        if math.isnan(self.minimum):
+            fate = "written without a height"
+        return WithoutGround(self.name, self.point_count, fate)
+
+    @property
     def text(self) -> str:
         """The summary as a sentence."""
         extremes = f"{self.minimum:.2f} to {self.maximum:.2f} {self.unit}"
@@ -105,6 +116,17 @@ class MeasureHeights(PointStep):
         if self.dtm is None:
             self.ground.check(counts, path)
 
+    def tell_of_survey(
+        self, done: Sequence[HeightSummary], empty: Sequence[LasFile], progress: Progress
+    ) -> None:
+        """Warn of files without ground; refuse them if no file has any."""
+        if self.dtm is not None:
+            if done and all(math.isnan(summary.minimum) for summary in done):
+                raise self.dtm.covers_nothing("the files")
+        else:
+            files = [(summary.ground_count, summary.without_ground) for summary in done]
+            self.ground.tell_of_survey(files, progress)
+
     def check_tile(self, tile: LasFile) -> None:
         """Refuse a file in another CRS than the raster."""
         if self.dtm is not None:
@@ -138,14 +160,15 @@ class MeasureHeights(PointStep):
 
     def result(self, path: Path, allocate: Allocate) -> HeightsOfPoints:
         """Return an object that collects the heights of a file."""
-        return HeightsOfPoints(self, allocate)
+        return HeightsOfPoints(self, path, allocate)
 
 
 class HeightsOfPoints(PointResult):
     """The heights above ground of a file; `allocate` returns an array, one value a point."""
 
-    def __init__(self, step: MeasureHeights, allocate: Allocate) -> None:
+    def __init__(self, step: MeasureHeights, path: Path, allocate: Allocate) -> None:
         super().__init__(step)
+        self._path = path
         self._as_z = step.output.output_as == "z"
         # Single precision is enough for a dimension. Heights that replace z are rounded as z is.
         # float, (n,): vertical unit of the CRS; NaN far from ground
@@ -169,36 +192,35 @@ class HeightsOfPoints(PointResult):
         self._lowest = min(self._lowest, float(np.fmin.reduce(heights, initial=np.inf)))
         self._highest = max(self._highest, float(np.fmax.reduce(heights, initial=-np.inf)))
 
+    def tell(self, progress: Progress) -> None:
+        """Refuse a raster that has no value at any point of one file."""
+        dtm = self._step.dtm
+        if dtm is not None and self._unknown_count == len(self.heights):
+            raise dtm.covers_nothing(str(self._path))
+
     def edits(self, cloud: PointCloud, progress: Progress = SILENT) -> Edits:
-        """Return the heights as z or as a dimension, or refuse heights that do not fit into z, and
-        a raster without any point.
-        """
+        """Return the heights as z or as a dimension, or refuse heights that do not fit into z."""
         dtm = self._step.dtm
         if dtm is not None:
             dtm.tell(cloud.crs, progress)
-            if self._unknown_count:
-                self._tell_of_unknown(cloud.path, dtm, progress)
+            if self._unknown_count and self._as_z:
+                raise self._no_z(dtm)
             dtm.tell_of_heights(self.heights, self._unit, FAR_ABOVE, progress)
+        if self._unknown_count and not self._as_z:
+            why = "no ground is near" if dtm is None else "the raster has no value there"
+            words = f"{self._unknown_count:,} of {len(self.heights):,} points"
+            progress.warning(f"{words} have no height (NaN): {why}.")
         if self._as_z:
             z, offset = _z_of(cloud, self.heights)
             return Edits(z=z, z_offset=offset)
         return Edits(extra=height_dimension(cloud, self.heights))
 
-    def _tell_of_unknown(self, path: Path, raster: HeightRaster, progress: Progress) -> None:
-        """Tell of points at which a raster has no value, or refuse the file."""
-        count, unknown = len(self.heights), self._unknown_count
-        if unknown == count:
-            raise BareEarthError(
-                f"{raster.path} has no value at any point of {path}. Give a raster that covers the"
-                " points."
-            )
-        if self._as_z:
-            raise BareEarthError(
-                f"{raster.path} has no value at {unknown:,} of the {count:,} points of {path}, so"
-                " that these have no height. Write the heights as an extra dimension."
-            )
-        progress.warning(
-            f"{unknown:,} of {count:,} points have no height (NaN): the raster has no value there."
+    def _no_z(self, raster: HeightRaster) -> BareEarthError:
+        """Return the error for points that cannot get a height as z."""
+        return BareEarthError(
+            f"{raster.path} has no value at {self._unknown_count:,} of the {len(self.heights):,}"
+            f" points of {self._path}, so that these have no height. Write the heights as an extra"
+            " dimension."
         )
 
     def summary(self, name: str, class_counts: dict[int, int]) -> HeightSummary:

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Sequence
 
 import numpy as np
 
 from ..classes.ground_classes import GroundClasses, GroundCounts
+from ..classes.without_ground import UNCHANGED, WithoutGround
 from ..core.parameters import ParameterSet, parameter
 from ..core.progress import SILENT, Progress
 from ..engine.blocks import Blocks, Visit
@@ -103,6 +105,16 @@ class FindKeyPoints(PointStep):
     def tell(self, counts: GroundCounts, path: Path, progress: Progress) -> None:
         """Refuse a file without ground."""
         self.ground.check(counts, path)
+
+    def tell_of_survey(
+        self, done: Sequence[KeyPointSummary], empty: Sequence[LasFile], progress: Progress
+    ) -> None:
+        """Warn of files without ground; refuse them if no file has any."""
+        files = [
+            (summary.ground_count, WithoutGround(summary.name, summary.point_count, UNCHANGED))
+            for summary in done
+        ]
+        self.ground.tell_of_survey(files, progress)
 
     def check_tile(self, tile: LasFile | PointCloud) -> None:
         """Refuse a file whose points cannot hold the class."""

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Sequence
 
 import numpy as np
 
 from ..classes.ground_classes import GroundClasses, GroundCounts
 from ..classes.kept_classes import IGNORED_GROUND
+from ..classes.without_ground import UNCHANGED, WithoutGround
 from ..core.parameters import ParameterSet, parameter
 from ..core.progress import SILENT, Progress
 from ..engine.blocks import Blocks
@@ -125,6 +127,7 @@ class WaterClassSummary(TileSummary):
     point_count: int = 0
     water_count: int = 0
     ignored_count: int = 0
+    was_ground_count: int = 0  # ground before
     class_counts: dict[int, int] = field(default_factory=dict)  # in the output
 
     @property
@@ -160,6 +163,16 @@ class ClassifyWater(PointStep):
         """Refuse a file without ground."""
         self.ground.check(counts, path)
 
+    def tell_of_survey(
+        self, done: Sequence[WaterClassSummary], empty: Sequence[LasFile], progress: Progress
+    ) -> None:
+        """Warn of files without ground; refuse them if no file has any."""
+        files = [
+            (summary.was_ground_count, WithoutGround(summary.name, summary.point_count, UNCHANGED))
+            for summary in done
+        ]
+        self.ground.tell_of_survey(files, progress)
+
     def check_tile(self, tile: LasFile | PointCloud) -> None:
         """Refuse a file whose points cannot hold the classes."""
         how = self.parameters
@@ -179,7 +192,9 @@ class ClassifyWater(PointStep):
     def numbers(self, part: PointCloud, after: PointCloud, values: np.ndarray) -> dict[str, int]:
         """Return how many points became water, and how many ignored ground."""
         new = after.classification[after.classification != part.classification]
+        ground = self.ground.points_of(part, self.ground.ground_classes)
         return {
+            "was_ground_count": int(np.count_nonzero(ground)),
             "water_count": int(np.count_nonzero(new == self.parameters.water_class)),
             "ignored_count": int(np.count_nonzero(new == self.parameters.ignored_class)),
         }

@@ -21,7 +21,8 @@ from bare_earth.algorithms.tools.ground.explanation import (
     rules_in,
     write_explanation,
 )
-from bare_earth.algorithms.tools.ground.step import LabelGround, Summary
+from bare_earth.algorithms.tools.ground.step import LabelGround
+from bare_earth.algorithms.tools.ground.summary import Summary
 from bare_earth.algorithms.tools.rasters.parameters import TerrainModel
 from bare_earth.algorithms.tools.rasters.rows import RasterFiles
 from bare_earth.algorithms.tools.rasters.step import MakeRasters
@@ -218,6 +219,7 @@ def test_json_is_the_counts_and_nothing_else(file, out, scene, capsys):
         "input_class_counts": {"1": scene[0].count},
         "class_counts": {"1": int((found == 1).sum()), "2": int((found == 2).sum())},
         "found_ground": True,
+        "why_no_ground": "",
     }
 
 

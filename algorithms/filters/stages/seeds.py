@@ -7,7 +7,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from ...core.errors import BareEarthError
+from ...core.errors import NoGround
 from ...core.points import Points
 from ...core.progress import SILENT
 from ...core.threads import in_threads, over_parts
@@ -75,7 +75,7 @@ class Seeds(PointRule):
             state.seeds, state.waiting = self._of_both(state)
             del state.grids[1:]  # they take four bytes a point
         if self.hint and not len(state.seeds):
-            raise BareEarthError(f"{_NO_SEED} {self.hint}")
+            raise NoGround(f"{_NO_SEED} {self.hint}")
 
     def _judged(self, grid: GridState) -> tuple[np.ndarray, np.ndarray]:
         """Return which lowest points are ground, and which may be ground."""
@@ -114,7 +114,7 @@ class KnownGround(PointRule):
             lowest = Cells.over(ground, self.cell).lowest_points(ground)
             state.seeds = np.append(state.seeds, indices[lowest])
         if not len(state.seeds):
-            raise BareEarthError(
+            raise NoGround(
                 f"{_NO_SEED} Check the maximum building size and the selection of points."
             )
 

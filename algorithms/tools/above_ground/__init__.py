@@ -11,6 +11,7 @@ import numpy as np
 from ...classes.corrections import NO_CORRECTIONS, Corrections, changed_since
 from ...classes.ground_classes import ROADS_FLAG, GroundClasses, GroundCounts
 from ...classes.kept_classes import DECIDED, ROADS, is_one_of
+from ...classes.without_ground import UNCHANGED, WithoutGround
 from ...core.points import Box
 from ...core.progress import Progress
 from ...engine.blocks import Blocks, Visit
@@ -19,6 +20,7 @@ from ...engine.step import PointStep, Step, with_classes
 from ...engine.store import Marks
 from ...engine.summary import TileSummary
 from ...las.cloud import PointCloud
+from ...las.lasfile import LasFile
 from ...las.return_numbers import MULTI_RETURN, SeveralReturns
 from ...survey.area import Area
 from ...survey.shapes import outside
@@ -40,6 +42,14 @@ class AboveGroundSummary(TileSummary):
     ground_count: int = 0
     changed_count: int = 0  # points with another class than before
     class_counts: dict[int, int] = field(default_factory=dict)  # in the output
+
+    @property
+    def without_ground(self) -> WithoutGround:
+        """What is told of one of many files without ground."""
+        fate = "classified above the ground of other files"
+        if not self.changed_count:
+            fate = UNCHANGED
+        return WithoutGround(self.name, self.point_count, fate)
 
     @property
     def text(self) -> str:
@@ -96,6 +106,13 @@ class ClassifyAboveGround(PointStep):
                 f"No point of {path} has one of the classes that are decided anew"
                 f" ({', '.join(map(str, self.parameters.changing))})."
             )
+
+    def tell_of_survey(
+        self, done: Sequence[AboveGroundSummary], empty: Sequence[LasFile], progress: Progress
+    ) -> None:
+        """Warn of files without ground; refuse them if no file has any."""
+        files = [(summary.ground_count, summary.without_ground) for summary in done]
+        self.ground.tell_of_survey(files, progress)
 
     def in_block(self, visit: Visit, progress: Progress) -> tuple[np.ndarray, np.ndarray]:
         """Return the positions of the wanted points and their classes; 0 if there is no ground."""

@@ -22,7 +22,6 @@ from ...core.words import counted
 from ...engine.blocks import Block, Blocks, Visit
 from ...engine.step import Allocate, PointResult, PointStep, Step, with_classes
 from ...engine.store import Marks, Store
-from ...engine.summary import TileSummary
 from ...filters import method_of
 from ...las.cloud import PointCloud
 from ...las.edits import Edits
@@ -34,37 +33,7 @@ from .explanation import ExplainedCells, write_explanation
 from .labelling import Label, blocks_of, labelled, tell
 from .looks import Look, label_of, looks_in, looks_of
 from .output import Output
-
-
-@dataclass(frozen=True, order=True)
-class Summary(TileSummary):
-    """The result of a classification; without an area, all points are in it."""
-
-    name: str  # of the output
-    point_count: int  # of the input
-    area_count: int  # in the area
-    selected_count: int  # in the area, took part in the filter
-    ground_count: int  # of the target class in the output, also outside
-    area_ground_count: int  # of the target class in the area
-    by_hand_count: int = 0  # in the area, whose class is known by hand
-    overlap_count: int = 0
-    input_class_counts: dict[int, int] = field(default_factory=dict)
-    class_counts: dict[int, int] = field(default_factory=dict)  # in the output, also outside
-    found_ground: bool = True
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        # The keys of the JSON record are strings.
-        counts = {int(value): count for value, count in self.input_class_counts.items()}
-        object.__setattr__(self, "input_class_counts", counts)
-
-    @property
-    def text(self) -> str:
-        """The share of the ground in words."""
-        ground, count = self.area_ground_count, self.area_count
-        where = " in the area" if count < self.point_count else ""
-        share = 100 * ground / max(count, 1)
-        return f"{self.name}: {ground:,} of {count:,} points{where} are ground ({share:.1f} %)"
+from .summary import Summary, tell_of_groundless_files
 
 
 @dataclass(frozen=True)
@@ -154,15 +123,18 @@ class LabelGround(PointStep):
             return False
         return not self.area.may_touch(tile.outer_box)
 
-    def tell_of_survey(self, done: Sequence[Summary], progress: Progress) -> None:
-        """Tell which classes stay, warn if no point lies in the area or in the corrections, and
-        refuse files none of which has points that can be ground.
+    def tell_of_survey(
+        self, done: Sequence[Summary], empty: Sequence[LasFile], progress: Progress
+    ) -> None:
+        """Tell which files have no ground and which classes stay, and warn if no point lies in the
+        area or in the corrections; refuse files none of which has ground.
         """
-        if self.area is None and done and not any(summary.found_ground for summary in done):
-            raise BareEarthError(
-                f"None of the {len(done):,} files could be done: no point of them can be"
-                " classified. Choose other classes to classify."
+        if self.output.area_only and empty:
+            progress.info(
+                f"{len(empty):,} files are not written: they have no points to write in the area."
             )
+        unwritten = () if self.output.area_only else empty
+        tell_of_groundless_files(done, unwritten, self.area is not None, progress)
         counts = PointCounts(overlap=sum(summary.overlap_count for summary in done))
         for summary in done:
             for value, count in summary.input_class_counts.items():
@@ -232,7 +204,7 @@ class ClassifiedPoints(PointResult):
         # in the area
         self._area_ground_count = self._by_hand_count = 0
         self._low_count = self._deck_count = self._high_count = 0
-        self._has_ground = False
+        self._has_ground, self._why = False, ""
 
     def applied(self, part: PointCloud, values: np.ndarray) -> PointCloud:
         """Return points with their new classes, and keep for `add` which lie in the area."""
@@ -263,31 +235,32 @@ class ClassifiedPoints(PointResult):
     @property
     def is_empty(self) -> bool:
         """Whether no point is to be written."""
-        if not self._step.output.area_only:
-            return False
-        in_area = self._area_ground_count if self._step.output.ground_only else self._counts.inside
-        return not in_area
+        output = self._step.output
+        if output.ground_only:
+            return not self._written_ground_count
+        return output.area_only and not self._counts.inside
+
+    @property
+    def _written_ground_count(self) -> int:
+        return self._area_ground_count if self._step.output.area_only else self._ground_count
 
     def check(self, progress: Progress, why: str = "") -> None:
-        """Tell how many points of one of many files took part, or refuse it without ground."""
-        step, counts = self._step, self._counts
-        # If an area is given, a file need not have points in it. Others need not have points that
-        # can be ground, such as a file of water only.
-        if step.area is None and not (counts.eligible or step.output.ground_only):
-            classes = np.flatnonzero(counts.classes).tolist()
-            words = "class" if len(classes) == 1 else "classes"
-            all_are = f"all are of {words} {', '.join(map(str, classes))}"
-            reason = all_are if counts.free else "all are withheld"
-            progress.warning(f"No point can be ground: {reason}. The file is written unchanged.")
-            return
-        if step.area is None or counts.of_returns:
-            step.selection.tell(counts, self._path, progress)
-        if not self._has_ground and (step.area is None or (why and counts.inside)):
-            raise BareEarthError(why or f"No ground was found in {self._path}.")
+        """Tell how many points of one of many files took part; keep why it has no ground."""
+        if self._counts.of_returns:
+            self._step.selection.tell(self._counts, self._path, progress)
+        self._why = why or self._counts.why_none
 
     def tell(self, progress: Progress) -> None:
-        """Report the numbers of outliers and of points on bridges in the area."""
-        selection = self._step.selection
+        """Report the numbers of outliers and of points on bridges in the area; refuse one file
+        without ground if nothing can be written.
+        """
+        selection, output = self._step.selection, self._step.output
+        if output.needs_ground and not self._written_ground_count:
+            raise BareEarthError(
+                f"{self._path} has no ground points, so there are no ground points to write,"
+                " and no heights above ground. Check the parameters and the selection of"
+                " points."
+            )
         if selection.low_noise_class:
             progress.info(
                 f"{counted(self._low_count, 'point lies', 'points lie')} more than"
@@ -305,21 +278,13 @@ class ClassifiedPoints(PointResult):
             progress.info(f"{counted(self._deck_count, *words)} not ground.")
 
     def edits(self, cloud: PointCloud, progress: Progress = SILENT) -> Edits:
-        """Return which points are written; refuse a file without any, or without heights."""
+        """Return which points are written."""
         output, counts = self._step.output, self._counts
-        count, ground = counts.points, self._ground_count
+        count, ground = counts.points, self._written_ground_count
         if output.area_only:
-            count, ground, left_out = counts.inside, self._area_ground_count, count - counts.inside
+            count, left_out = counts.inside, count - counts.inside
             words = "point outside of the area is", "points outside of the area are"
             progress.info(f"{counted(left_out, *words)} left out of the output.")
-        # Without an area, only files come here without ground whose points are written as they are.
-        is_needed = output.ground_only or self._step.area is not None
-        if output.needs_ground and is_needed and not ground:
-            raise BareEarthError(
-                f"{cloud.path} has no ground points, so there are no ground points to write,"
-                " and no heights above ground. Check the parameters and the selection of"
-                " points."
-            )
         if output.ground_only:
             words = "point that is not ground is", "points that are not ground are"
             progress.info(f"{counted(count - ground, *words)} left out of the output.")
@@ -340,4 +305,5 @@ class ClassifiedPoints(PointResult):
             by_class(counts.classes),
             class_counts,
             self._has_ground,
+            "" if self._has_ground else self._why,
         )

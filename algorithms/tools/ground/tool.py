@@ -124,6 +124,6 @@ TOOL = MapTool(
     classifies=True,
     command="classify",
     about="Only the classification changes in the output. A point of many files gets the class that"
-    " it would get if all were one file, so there are no seams. A file that cannot be classified is"
+    " it would get if all were one file, so there are no seams. A file that cannot be read is"
     " reported at the end. The same run can make rasters and contour lines of the terrain.",
 )  # fmt: skip
