@@ -26,7 +26,7 @@ _SECTIONS = {
     "Many files": ("TileMethod", "TileInput", "ShownTiles", "TileOutput"),
     "Above the ground": ("AboveGround", "ThenAboveGround"),
     "Rasters": (
-        "TerrainModel", "DeliveryTerrain", "RasterOutput", "SurfaceModel", "Gaps",
+        "TerrainModel", "DeliveryTerrain", "RasterOutput", "SurfaceModel", "CanopyModel", "Gaps",
     ),
     "Contour lines": ("Contours",),
     "Relief": ("FolderKinds", "ReliefPictures"),

@@ -62,9 +62,13 @@ class GroundSurface:
 
     def heights_above(self, points: Points, progress: Progress = SILENT) -> np.ndarray:
         """Return the height of points above the surface; float64, shape (n,)."""
-        below = self._surface.heights(points.x, points.y, progress=progress.part(0.0, 0.95))
+        return points.z - self.heights(points.x, points.y, progress)
+
+    def heights(self, x: np.ndarray, y: np.ndarray, progress: Progress = SILENT) -> np.ndarray:
+        """Return the height of the surface at places; float64, shape (n,)."""
+        below = self._surface.heights(x, y, progress=progress.part(0.0, 0.95))
         outside = np.flatnonzero(np.isnan(below))
         if len(outside):
-            below[outside] = self._surface.nearest(points.x[outside], points.y[outside])
+            below[outside] = self._surface.nearest(x[outside], y[outside])
         progress(1.0)
-        return points.z - below
+        return below

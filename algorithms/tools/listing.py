@@ -51,6 +51,9 @@ FILE_TOOLS = {
         "Removes buildings, trees and other steep-sided objects from an elevation raster.",
     ),
     "contours": Listed("contours", "Draws contour lines of an elevation raster."),
+    "canopy": Listed(
+        "canopy", "Makes the canopy height of a surface model and a terrain model, two rasters."
+    ),
     "check": Listed(
         "check.checking",
         "Compares ground points and a terrain model with points surveyed on the ground.",

@@ -46,6 +46,7 @@ COMMANDS = {
     "assess": "assess {classified} {classified} --report OUT/page.html --error-map OUT/map.tif",
     "compare": "compare-settings {one} OUT/page.html --settings slope:town slope:automatic"
     " --extent 500000 5700000 500100 5700100",
+    "canopy": "canopy {dsm} {dsm} OUT/chm.tif",
     "objects": "remove-off-terrain-objects {dsm} OUT/dtm.tif",
 }
 # Those that write many files, of which each is told on its own.

@@ -9,7 +9,8 @@ from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.grids.cell_window import CellWindow
 from bare_earth.algorithms.tin.surface import Surface
 from bare_earth.algorithms.tin.triangulation import Tin
-from bare_earth.algorithms.tools.rasters.block import BlockView, RasterStep
+from bare_earth.algorithms.tools.rasters.block import RasterStep
+from bare_earth.algorithms.tools.rasters.block_view import BlockView
 
 
 @pytest.fixture()

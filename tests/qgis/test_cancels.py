@@ -54,6 +54,9 @@ GIVEN = {
         "ERROR_MAP": "OUT/map.tif",
     },
     "removeoffterrainobjects": {"INPUT": "IN/surface.tif", "OUTPUT": "OUT/dtm.tif"},
+    "canopyheight": {
+        "SURFACE": "IN/surface.tif", "TERRAIN": "IN/surface.tif", "OUTPUT": "OUT/chm.tif",
+    },
 }  # fmt: skip
 # Of these what is finished stays.
 SURVEYS = ("pointcloudtoterrain of many", "classifytiles")

@@ -158,6 +158,7 @@ PARAMETERS = {
     "bareearth:removeoffterrainobjects": [
         "INPUT", "MAX_OBJECT_SIZE", "SLOPE_THRESHOLD", "BAND", "OUTPUT",
     ],
+    "bareearth:canopyheight": ["SURFACE", "TERRAIN", "PIT_FREE", "OUTPUT"],
 }  # fmt: skip
 OUTPUTS = {
     "bareearth:tindensification": SHARED_OUTPUTS,
@@ -270,6 +271,7 @@ OUTPUTS = {
         "RED_RELIEF",
     ],
     "bareearth:removeoffterrainobjects": ["OUTPUT", "CELL_COUNT", "REMOVED_COUNT"],
+    "bareearth:canopyheight": ["OUTPUT", "CELL_COUNT", "MAXIMUM"],
 }
 MODELS = {
     "bareearth:terraincontours": [

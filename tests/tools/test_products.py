@@ -303,7 +303,8 @@ def test_terrain_surface_and_canopy(tmp_path):
     roof = (abs(x - 500_015) < 4) & (abs(y - 5_700_015) < 4)
     assert np.allclose(dsm[rows, columns][roof], 120.0)
     assert np.nanmax(dsm) == 120.0  # the noise above is left out
-    assert np.allclose(chm[rows, columns][roof], 120.0 - plane[roof], atol=1e-3)
+    # Points lie in the southwestern corners of cells; each is measured above the ground under it.
+    assert np.allclose(chm[rows, columns][roof], 120.0 - plane[roof] + 0.15, atol=1e-3)
     assert 0.0 <= np.nanmin(chm) < 0.2
     assert np.array_equal(np.isnan(chm), np.isnan(dsm) | np.isnan(dtm))
     assert np.array_equal(np.isnan(shade), np.isnan(dtm))

@@ -16,7 +16,7 @@ from ...grids.lines import NearestHeights, NearPlaces, along, inside_grid, squar
 from ...las.cloud import PointCloud
 from ...survey.area import Area, Polygon
 from ..water.descent import falling
-from .block import BlockView
+from .block_view import BlockView
 from .constraints import NEAR, STATION, Constraints
 from .given_heights import without_wrong_heights
 from .level_water import LevelWater

@@ -71,7 +71,7 @@ class Mosaic:
         heights = joined(self._blocks, self._layer, strip, np.float32(np.nan))
         if self._layer == "terrain":
             self._water.burn(heights, strip)
-        elif self._layer == "surface":
+        elif self._layer in ("surface", "canopy"):
             has_top = joined(self._blocks, CONTENTS, strip, np.uint8(0)) >= TOP
             self._water.burn(heights, strip, has_top)
         elif self._layer in ("expected_error", "error_cause"):

@@ -103,8 +103,8 @@ class Raster:
         return np.where(np.isnan(values), nodata, values).astype(np.float32)
 
 
-def _canopy(surface: np.ndarray, terrain: np.ndarray, how: How) -> np.ndarray:
-    canopy = canopy_height(surface, terrain)
+def _canopy(canopy: np.ndarray, terrain: np.ndarray, how: How) -> np.ndarray:
+    canopy = canopy_height(canopy, terrain)
     return without_pits(canopy) if how.surface.pit_free else canopy
 
 
@@ -151,12 +151,13 @@ RASTERS = {
     ),
     "chm": Raster(
         "Canopy height",
-        "Surface minus terrain: the height of trees, and of buildings too. Empty where no ground"
-        " point lies within 50 m (or 20 cells), and in gaps of the surface.",
+        "The greatest height above the ground in each cell: of trees, and of buildings too. Each"
+        " point is measured above the ground under it, so that bare slopes have 0. Empty where no"
+        " ground point lies within 50 m (or 20 cells), and in gaps of the surface.",
         "Height above ground, {unit}",
         _canopy,
         Look(Ramp(looks.CANOPY, low=0.0), 3, hides=3),
-        layers=("surface", "terrain"),
+        layers=("canopy", "terrain"),
         reach=lambda how: PIT_PASSES,
         label="Canopy height (CHM)",
         is_height=True,

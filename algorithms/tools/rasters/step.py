@@ -32,7 +32,8 @@ from ...rasters.libraries import library_name
 from ...survey.shapes import Place
 from ...tin.dense_surface import VERTICES_A_SIDE
 from ...tin.height_above_ground import with_roads
-from .block import LAYERS, BlockRasters, BlockView
+from .block import LAYERS, BlockRasters
+from .block_view import BlockView
 from .constraints import NO_CONSTRAINTS, Constraints
 from .fixed_terrain import fixed_terrain
 from .output import AROUND_AREA, Drawing, RasterSize, no_point_in, write_rasters
@@ -99,7 +100,7 @@ class MakeRasters(Drawing, Sink):
     @property
     def needs_surface(self) -> bool:
         """Whether any of the rasters needs the surface."""
-        return "surface" in self.files.layers
+        return not {"surface", "canopy"}.isdisjoint(self.files.layers)
 
     @property
     def origin(self) -> tuple[float, float]:

@@ -19,32 +19,39 @@ _CELLS = 3.0
 _SPACINGS = 3.0
 
 
-def follow_edges(
-    heights: np.ndarray,
-    window: CellWindow,
-    cell: float,
-    points: Points,
-    edges: np.ndarray,
-    corner: tuple[float, float],
-) -> None:
-    """Replace the heights of cells near lines, in place, by heights of the TIN of all points, which
-    are ground and, as `edges` says, vertices along the lines.
-    """
-    # All is in metres; the points are relative to `corner` in the frame of the survey.
-    reach = max(_CELLS * cell, _SPACINGS * spacing(points.take(~edges)))
-    lines = points.take(edges)
-    wide = math.ceil(reach / cell)
-    row, column = window.wider(wide).places(lines.x, lines.y, corner, cell)
-    touched = np.zeros((window.rows + 2 * wide, window.columns + 2 * wide), dtype=bool)
-    inside = are_inside(row, column, touched.shape)
-    touched[row[inside], column[inside]] = True
-    near = within_square(np.maximum, touched, wide)[wide:-wide, wide:-wide]
-    row, column = np.nonzero(near)
-    if not len(row):
-        return
-    nearby = points.take(edges | NearPlaces(lines.x, lines.y, 2.0 * reach).of(points.x, points.y))
-    x = (window.column + column + 0.5) * cell - corner[0]
-    y = (window.row + row + 0.5) * cell - corner[1]
-    found = Tin(*nearby).interpolate(x, y)
-    known = ~np.isnan(found)
-    heights[row[known], column[known]] = found[known]
+class TerrainAtEdges:
+    """The TIN of all ground points near lines, which are the `edges` among these points."""
+
+    def __init__(self, points: Points, edges: np.ndarray, cell: float) -> None:
+        self.reach = max(_CELLS * cell, _SPACINGS * spacing(points.take(~edges)))
+        self.lines = points.take(edges)
+        near = NearPlaces(self.lines.x, self.lines.y, 2.0 * self.reach)
+        self._tin = Tin(*points.take(edges | near.of(points.x, points.y)))
+
+    def follow(self, heights: np.ndarray, x: np.ndarray, y: np.ndarray) -> None:
+        """Replace the heights at places near the lines, in place."""
+        near = np.flatnonzero(NearPlaces(self.lines.x, self.lines.y, self.reach).of(x, y))
+        found = self._tin.interpolate(x[near], y[near])
+        known = ~np.isnan(found)
+        heights[near[known]] = found[known]
+
+    def follow_in_cells(
+        self, heights: np.ndarray, window: CellWindow, cell: float, corner: tuple[float, float]
+    ) -> None:
+        """Replace the heights of cells near the lines, in place; all is in metres, and the points
+        are relative to `corner` in the frame of the survey.
+        """
+        wide = math.ceil(self.reach / cell)
+        row, column = window.wider(wide).places(self.lines.x, self.lines.y, corner, cell)
+        touched = np.zeros((window.rows + 2 * wide, window.columns + 2 * wide), dtype=bool)
+        inside = are_inside(row, column, touched.shape)
+        touched[row[inside], column[inside]] = True
+        near = within_square(np.maximum, touched, wide)[wide:-wide, wide:-wide]
+        row, column = np.nonzero(near)
+        if not len(row):
+            return
+        x = (window.column + column + 0.5) * cell - corner[0]
+        y = (window.row + row + 0.5) * cell - corner[1]
+        found = self._tin.interpolate(x, y)
+        known = ~np.isnan(found)
+        heights[row[known], column[known]] = found[known]

@@ -1,0 +1,210 @@
+"""Canopy height from two rasters: a surface model minus a terrain model."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from typing import Iterator
+
+import numpy as np
+
+from ..core.errors import BareEarthError
+from ..core.parameters import ParameterSet, parameter_of
+from ..core.progress import SILENT, Progress
+from ..crs.matching import described, is_other_datum
+from ..grids.canopy import PIT_PASSES, canopy_height, without_pits
+from ..rasters.content import NO_CELLS, Source
+from ..rasters.geotiff import NODATA, Raster, read_raster
+from ..rasters.sampling import HeightRaster, HeightSampler
+from ..rasters.writing import Rows, write_geotiff
+from .declaration import CANOPY, RASTER, FileTool, Input, Output
+from .rasters.parameters import SurfaceModel
+from .rasters.rows import RASTERS
+
+# Cells that are worked on at a time.
+_CELLS = 4_000_000
+# Difference of two geotransforms, in cells, up to which the grids are the same.
+_SAME = 1e-3
+# A surface that lies this far below the terrain, in metres, in most cells is none.
+_BELOW = 1.0
+
+
+@dataclass(frozen=True)
+class CanopyModel(ParameterSet):
+    """How the canopy height is made."""
+
+    pit_free: bool = parameter_of(SurfaceModel, "pit_free", advanced=False)
+
+
+@dataclass(frozen=True)
+class Canopy:
+    """What was found."""
+
+    cell_count: int  # with a canopy height
+    maximum: float  # the greatest height in the vertical unit of the surface model
+    unit: str = ""  # symbol of that unit
+
+    @property
+    def text(self) -> str:
+        """The result as a sentence."""
+        highest = f"{self.maximum:.1f} {self.unit}".rstrip()
+        return f"{self.cell_count:,} cells have a canopy height, up to {highest}."
+
+
+class _Heights:
+    """Surface and terrain of the cells of the surface model, in metres."""
+
+    def __init__(self, surface: Raster, terrain: Source, progress: Progress) -> None:
+        self.surface, self.unit = surface, surface.frame.vertical_unit
+        of_terrain = read_raster(terrain, window=NO_CELLS, progress=progress)
+        self._terrain_unit = of_terrain.frame.vertical_unit
+        _refuse_other_crs(surface, of_terrain, terrain, progress)
+        self._terrain: Raster | HeightSampler = of_terrain
+        if not _is_same_grid(surface, of_terrain):
+            progress.info(
+                f"{terrain} is not on the grid of {surface.source}: its heights are interpolated"
+                " at the centres of these cells."
+            )
+            self._terrain = HeightSampler(HeightRaster.of(terrain))
+
+    def rows(self, start: int, end: int) -> tuple[np.ndarray, np.ndarray]:
+        """Return some rows of the surface and of the terrain."""
+        surface = self.surface.rows(start, end).astype(np.float64) * self.unit
+        if isinstance(self._terrain, Raster):
+            heights = self._terrain.rows(start, end)
+        else:
+            column, row = np.meshgrid(np.arange(surface.shape[1]), np.arange(len(surface)))
+            row, column = row + max(start, 0) + 0.5, column + 0.5
+            x, a, b, y, c, d = self.surface.geotransform
+            places = x + a * column + b * row, y + c * column + d * row
+            heights = self._terrain.heights(*map(np.ravel, places)).reshape(surface.shape)
+        return surface, heights.astype(np.float64) * self._terrain_unit
+
+
+def canopy_of_rasters(
+    surface: Source,
+    terrain: Source,
+    output: Path,
+    parameters: CanopyModel = CanopyModel(),
+    progress: Progress = SILENT,
+) -> Canopy:
+    """Write the height of a surface model above a terrain model, on the grid of the surface."""
+    raster = read_raster(surface, window=NO_CELLS, progress=progress)
+    heights = _Heights(raster, terrain, progress)
+    found = _Found()
+    strips = _strips(heights, parameters.pit_free, found, progress.part(0.0, 0.9))
+    row, rows = RASTERS["chm"], Rows(raster.whole, "float32", strips)
+    write_geotiff(output, rows, raster, NODATA, progress.part(0.9, 1.0), row.shows)
+    raster.tell(progress)
+    read_raster(terrain, window=NO_CELLS).tell(progress)
+    found.check(surface, terrain)
+    return Canopy(found.count, found.maximum / heights.unit, raster.unit_symbol)
+
+
+class _Found:
+    """The cells with a height so far."""
+
+    def __init__(self) -> None:
+        self.count, self.below, self.maximum = 0, 0, 0.0
+
+    def add(self, differences: np.ndarray) -> None:
+        """Add cells, NaN where one of the rasters has no value."""
+        self.count += int(np.count_nonzero(~np.isnan(differences)))
+        self.below += int(np.count_nonzero(differences < -_BELOW))
+        self.maximum = float(np.fmax.reduce(differences, axis=None, initial=self.maximum))
+
+    def check(self, surface: Source, terrain: Source) -> None:
+        """Refuse rasters that do not overlap, and those in the wrong order."""
+        if not self.count:
+            raise BareEarthError(
+                f"No cell has a value in both {surface} and {terrain}. Give two rasters of the"
+                " same place."
+            )
+        if self.below > self.count / 2:
+            raise BareEarthError(
+                f"{surface} lies more than {_BELOW:g} m below {terrain} in {self.below:,} of"
+                f" {self.count:,} cells. Give the surface model first, and rasters whose heights"
+                " have one unit and one vertical datum."
+            )
+
+
+def _strips(
+    heights: _Heights, fills_pits: bool, found: _Found, progress: Progress
+) -> Iterator[np.ndarray]:
+    """Yield the canopy height, some rows at a time."""
+    count, columns = heights.surface.whole
+    step, margin = max(_CELLS // columns, 1), PIT_PASSES if fills_pits else 0
+    for start in range(0, count, step):
+        first, end = max(start - margin, 0), min(start + step, count)
+        surface, terrain = heights.rows(first, end + margin)
+        inner = slice(start - first, end - first)
+        found.add((surface - terrain)[inner])
+        canopy = canopy_height(surface, terrain)
+        canopy = (without_pits(canopy) if fills_pits else canopy)[inner] / heights.unit
+        yield np.where(np.isnan(canopy), NODATA, canopy).astype(np.float32)
+        progress(end / count)
+
+
+def _is_same_grid(one: Raster, other: Raster) -> bool:
+    """Return whether two rasters have the same cells."""
+    size = abs(one.geotransform[1]) + abs(one.geotransform[2])
+    # Differences of the sides of cells add up over the raster.
+    scale = np.array([1.0, *[max(one.whole)] * 2] * 2)
+    off = np.abs(np.subtract(one.geotransform, other.geotransform)) * scale
+    return one.whole == other.whole and bool((off <= _SAME * size).all())
+
+
+def _refuse_other_crs(surface: Raster, terrain: Raster, name: Source, progress: Progress) -> None:
+    """Refuse a terrain model in another CRS, and warn of another vertical datum."""
+    if not (surface.frame.wkt and terrain.frame.wkt):
+        return
+    HeightRaster.of(name).check(surface.crs, str(surface.source))
+    if is_other_datum(surface.crs.datum, terrain.crs.datum):
+        progress.warning(
+            f"The heights of {surface.source} and {name} are not above the same datum:"
+            f" {described(surface.crs)} and {described(terrain.crs)}. They are compared as they"
+            " are."
+        )
+
+
+_raster = partial(Input, kind="raster")
+TOOL = FileTool(
+    work=canopy_of_rasters,
+    sets=(CanopyModel,),
+    inputs=(
+        _raster(
+            "surface",
+            help="A surface model: a raster file with a band of heights.",
+            label="Surface model (DSM)",
+        ),
+        _raster(
+            "terrain",
+            help="The terrain model of the same place, in the CRS of the surface model. On another"
+            " grid, its heights are interpolated.",
+            label="Terrain model (DTM)",
+        ),
+    ),
+    outputs=(
+        Output(
+            "output",
+            "raster",
+            help="The height of the surface above the terrain, on the grid of the surface model.",
+            label="Canopy height (CHM)",
+            is_main=True,
+            look="chm",
+        ),
+    ),
+    command="canopy",
+    identifier="canopyheight",
+    title="Canopy height from two rasters",
+    about="For the surface model and the terrain model of a survey whose points you do not have."
+    " Cells are 0 where the surface lies below the terrain, and empty where either raster is.\n"
+    "With points, make the canopy height of them: a cell of a surface model holds its highest"
+    " point, so that on slopes the difference of two rasters is too large, by half of the rise"
+    " over a cell.",
+    page="terrain-model#canopy-height-from-two-rasters",
+    run_name="canopy",
+    words=(CANOPY, RASTER, "dsm,dtm,canopy height model,difference,subtract,raster calculator"),
+    numbers=(("CELL_COUNT", "Cells with a height"), ("MAXIMUM", "Greatest height")),
+)
