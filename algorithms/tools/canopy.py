@@ -74,8 +74,10 @@ class _Heights:
         if isinstance(self._terrain, Raster):
             heights = self._terrain.rows(start, end)
         else:
-            column, row = np.meshgrid(np.arange(surface.shape[1]), np.arange(len(surface)))
-            row, column = row + max(start, 0) + 0.5, column + 0.5
+            rows, columns = surface.shape
+            column, row = np.meshgrid(
+                np.arange(columns) + 0.5, np.arange(rows) + max(start, 0) + 0.5
+            )
             x, a, b, y, c, d = self.surface.geotransform
             places = x + a * column + b * row, y + c * column + d * row
             heights = self._terrain.heights(*map(np.ravel, places)).reshape(surface.shape)

@@ -179,10 +179,10 @@ def _errors(
     )
     pieces = evidence(cells, view.points.z, view.ground, rows, columns)
     for name, values in found.items():
-        made = _OF_EVIDENCE[name](pieces)
+        of_cells = _OF_EVIDENCE[name](pieces)
         if view.looks and name == "expected_error":
-            made *= factor_of_looks(cells, view.points.z, view.looks, rows, columns)
-        values[np.ix_(*inside)] = made[np.ix_(of_rows, of_columns)]
+            of_cells *= factor_of_looks(cells, view.points.z, view.looks, rows, columns)
+        values[np.ix_(*inside)] = of_cells[np.ix_(of_rows, of_columns)]
     return found, {}
 
 
