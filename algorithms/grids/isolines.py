@@ -43,6 +43,11 @@ class Isoline(NamedTuple):
         """Whether the line ends where it begins."""
         return bool((self.places[0] == self.places[-1]).all())
 
+    @property
+    def is_depression(self) -> bool:
+        """Whether the line is closed and the land inside is lower."""
+        return self.is_closed and _area(self.places) < 0.0  # higher ground is on the left
+
 
 class _Piece(NamedTuple):
     """A part of a line: the nodes at its ends, and the places of its parts in order."""

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from typing import Iterable, NamedTuple
 
 from ..survey.feature_files import FORMATS as WRITTEN_FORMATS
+from ..survey.feature_files import OWN_FORMATS
 from ..survey.vector_files import FORMATS
 from ..tools.check.reading import FORMATS as POINT_FORMATS
 from ..tools.declaration import CLOUD_OUTPUT, LIST_OUTPUT, Output, help_of_area, with_note
@@ -24,7 +25,8 @@ _LITERAL = "Literal[{}]"
 # Last sentence of the help of an output, by its kind.
 _WRITTEN = {
     "raster": "Written as .tif.",
-    "features": f"Written as {', '.join(WRITTEN_FORMATS)}; all but .geojson need pyogrio.",
+    "features": f"Written as {', '.join(WRITTEN_FORMATS)}; all but"
+    f" {' and '.join(OWN_FORMATS)} need pyogrio.",
     "page": "Written as .html.",
     "table": "Written as .csv.",
     "cloud": "Written as .las, .laz or .copc.laz, or into a folder if there are many inputs.",

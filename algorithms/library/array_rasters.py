@@ -51,7 +51,11 @@ def of_contours() -> Function:
         (Contours,),
         _contours,
         flags={"contour_interval": "interval"},
-        gives=Kind("Features", "The lines: ELEV is the height, INDEX 1 for every fifth line."),
+        gives=Kind(
+            "Features",
+            "The lines: ELEV is the height, INDEX 1 for every fifth line, DEPRESSION 1 for closed"
+            " lines round lower land.",
+        ),
     )
 
 

@@ -155,7 +155,7 @@ def _of_point_tool(command: str) -> Function:
     return Function(
         POINT_TOOLS[command].file,
         tool.help,
-        (CLASSIFIED, *map(arguments.of_output, tool.all_outputs)),
+        (*arguments_of(tool.points), *map(arguments.of_output, tool.all_outputs)),
         (
             *(argument for declared in tool.inputs for argument in arguments_of(declared)),
             arguments.CRS, *_REACHES,

@@ -1,4 +1,4 @@
-"""Writes lines, points or polygons: GeoJSON here, other formats by pyogrio, or GDAL in QGIS."""
+"""Writes lines, points or polygons: GeoJSON and DXF here, others by pyogrio, or GDAL in QGIS."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import struct
 import warnings
 from itertools import islice
 from pathlib import Path
-from typing import Callable, Iterable, Iterator, Mapping, NamedTuple, Sequence, Union
+from typing import Any, Callable, Iterable, Iterator, Mapping, NamedTuple, Sequence, Union
 
 import numpy as np
 
@@ -17,9 +17,14 @@ from ..core.errors import BareEarthError
 from ..core.progress import SILENT, Progress
 from ..core.temporary import shown
 from ..rasters.libraries import GdalErrors
+from .dxf import Drawn, write_dxf
 
 # The formats, and their names in GDAL.
-FORMATS = {".gpkg": "GPKG", ".geojson": "GeoJSON", ".shp": "ESRI Shapefile", ".fgb": "FlatGeobuf"}
+FORMATS = {
+    ".gpkg": "GPKG", ".geojson": "GeoJSON", ".shp": "ESRI Shapefile", ".fgb": "FlatGeobuf",
+    ".dxf": "DXF",
+}  # fmt: skip
+OWN_FORMATS = ".geojson", ".dxf"  # those that need no library
 # Further files of these formats: indices and journals.
 _BESIDE = {
     ".shp": (".dbf", ".shx", ".prj", ".cpg", ".qpj", ".qix", ".sbn", ".sbx"),
@@ -36,6 +41,14 @@ _KINDS = {"Point Z": 1001, "LineString": 2, "LineString Z": 1002, "Polygon": 3}
 Corners = Union[np.ndarray, Sequence[np.ndarray]]
 
 
+class Drawing(NamedTuple):
+    """The layers of a drawing (DXF), which has no fields."""
+
+    colours: Mapping[str, int]  # the layers, and the numbers of their colours
+    # Returns the layer of a feature, and its height if its corners have none, from its values.
+    place: Callable[[tuple[Any, ...]], tuple[str, float]]
+
+
 class Layer(NamedTuple):
     """What the features of a file have in common."""
 
@@ -44,6 +57,7 @@ class Layer(NamedTuple):
     fields: Mapping[str, type]  # names, and types of the values: int, float or str
     wkt: str | None
     epsg: int | None
+    drawing: Drawing | None = None  # by default one layer with the name
 
 
 class Feature(NamedTuple):
@@ -64,6 +78,8 @@ def feature_writer(target: Path) -> Callable[..., int]:
         raise BareEarthError(
             f"Cannot write {target}: vector layers are written as {', '.join(FORMATS)}. Name it so."
         )
+    if suffix == ".dxf":
+        return _dxf
     if importlib.util.find_spec("osgeo") is not None:
         return _by_gdal
     if suffix == ".geojson":
@@ -71,8 +87,8 @@ def feature_writer(target: Path) -> Callable[..., int]:
     if importlib.util.find_spec("pyogrio") is not None:
         return _by_pyogrio
     raise BareEarthError(
-        f"{target} needs pyogrio to be written: pip install pyogrio. GeoJSON (.geojson) is written"
-        " without it."
+        f"{target} needs pyogrio to be written: pip install pyogrio. GeoJSON (.geojson) and DXF"
+        " (.dxf) are written without it."
     )
 
 
@@ -98,6 +114,27 @@ def _geojson(
             count += 1
         file.write("\n]}\n")
     return count
+
+
+def _dxf(
+    target: Path, features: Iterable[Feature], layer: Layer, progress: Progress = SILENT
+) -> int:
+    name = layer.name.upper()
+    drawing = layer.drawing or Drawing({name: 7}, lambda values: (name, 0.0))
+    stated = f"EPSG:{layer.epsg}" if layer.epsg else "the CRS of the input"
+    progress.info(f"{target.name} cannot state its CRS: its coordinates are in {stated}.")
+    shapes = (shape for feature in features for shape in _drawn(feature, layer.kind, drawing))
+    return write_dxf(target, shapes, drawing.colours, f"Bare Earth, {layer.name}, {stated}")
+
+
+def _drawn(feature: Feature, kind: str, drawing: Drawing) -> Iterator[Drawn]:
+    """Yield a feature as a drawing has it: a polygon as the lines of its rings."""
+    layer, height = drawing.place(feature.values)
+    for corners in feature.corners if kind == "Polygon" else [feature.corners]:
+        places = np.asarray(corners, dtype=np.float64)
+        if places.shape[1] < 3:
+            places = np.column_stack((places, np.full(len(places), height)))
+        yield Drawn(layer, np.nan_to_num(places, nan=height))
 
 
 def _by_pyogrio(

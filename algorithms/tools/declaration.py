@@ -229,6 +229,7 @@ class PointTool(Tool):
     """A tool that writes classified files with a value or a class of each point."""
 
     step: type[PointStep] = PointStep  # its fields are the sets, and the inputs by name
+    points: Input = POINTS
     output_label: str = ""
     output_help: str = ""
     shows: str = "classes"  # how QGIS shows the output: "classes", "key points" or "heights"
@@ -237,7 +238,7 @@ class PointTool(Tool):
     @property
     def all_inputs(self) -> tuple[Input, ...]:
         """The points, the other inputs, and the CRS."""
-        return POINTS, *self.inputs, CRS
+        return self.points, *self.inputs, CRS
 
     @property
     def all_outputs(self) -> tuple[Output, ...]:

@@ -26,6 +26,7 @@ POINT_TOOLS = {
         "key_points",
         "Finds the few ground points that make as good a terrain model as all of them.",
     ),
+    "clip": Listed("clip", "Writes the points of an area as they are, and nothing else."),
     "water-classes": Listed(
         "water_classes",
         "Gives class 9 to ground points in water, and class 20 to those beside its shore.",

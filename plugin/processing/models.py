@@ -16,12 +16,11 @@ from qgis.core import (
 from ...algorithms.core.errors import BareEarthError
 from ...algorithms.core.parameters import ParameterSet
 from ...algorithms.survey.files import Inputs
-from ...algorithms.tools.contours import Interval
 from ...algorithms.tools.declaration import CANOPY, CLOUD, GROUND, TERRAIN
 from ...algorithms.tools.ground.method import TileMethod
 from .. import compat
 from ..i18n import tr
-from ..styles import layers, rasters
+from ..styles import layers
 from ..styles.loaded import fresh_path
 from ..styles.metadata import Origin, settings_of
 from ..styles.stage import Stage
@@ -152,12 +151,10 @@ class ShippedModel(QgsProcessingModelAlgorithm):
         try:
             results = super().processAlgorithm(given, context, feedback)
         finally:
-            self._arrange(given, results, context)
+            self._arrange(results, context)
         return results
 
-    def _arrange(
-        self, given: dict[str, object], results: dict[str, object], context: QgsProcessingContext
-    ) -> None:
+    def _arrange(self, results: dict[str, object], context: QgsProcessingContext) -> None:
         """Set names, styles and places of the layers; QGIS names them OUTPUT, DTM and so on."""
         # The paths by which QGIS loads them.
         paths = {
@@ -170,10 +167,6 @@ class ShippedModel(QgsProcessingModelAlgorithm):
             do_not_load(context, extra)
             looks = layers.looks_of(context)
         if context.willLoadLayerOnCompletion(paths.get(_LINES, "")):
-            terrain = paths.get("ground:DTM")
-            unit = rasters.unit_of(terrain) if terrain else ""
-            interval = Interval(float(str(given["INTERVAL"])), unit)
-            looks[paths[_LINES]] = layers.contours(interval)
             # The terrain must be visible below its contour lines.
             for path in {*extra, paths.get(_CLASSIFIED, "")} & set(looks):
                 looks[path] = looks[path]._replace(hides=layers.BELOW_TERRAIN)

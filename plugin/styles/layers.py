@@ -88,6 +88,7 @@ _LOOKS: dict[str, Look | Callable[[Any], Look]] = {
     "breaklines": BREAKLINES,
     "places": PLACES,
     "low confidence": LOW_CONFIDENCE,
+    "contours": lambda found: contours(found),
     "residuals": lambda found: residuals(found.scale),
 }
 

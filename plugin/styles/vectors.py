@@ -7,6 +7,7 @@ from typing import Callable
 from qgis.core import (
     QgsEditorWidgetSetup,
     QgsFillSymbol,
+    QgsHashedLineSymbolLayer,
     QgsLineSymbol,
     QgsMarkerSymbol,
     QgsPalLayerSettings,
@@ -27,6 +28,8 @@ from ..i18n import tr
 
 _THIN = {"line_color": "110,72,36,160", "line_width": "0.2"}
 _THICK = {"line_color": "110,72,36,220", "line_width": "0.35"}
+_TICKS_APART = 4.0  # millimetres
+_TICK = 1.0  # millimetres
 # Fill and outline of water by its grade; the last one is that of all others.
 _WATER = {
     "given": ("70,140,220,190", "20,80,170"),
@@ -44,18 +47,27 @@ _HALO_SIZE = 0.7  # millimetres
 
 
 def contours(interval: Interval) -> Callable[[QgsVectorLayer], None]:
-    """Return a function that draws contour lines in brown, every fifth line thicker with label."""
+    """Return a function that draws contour lines in brown, every fifth line thicker with label, and
+    depressions with ticks that point down.
+    """
 
     def dress(layer: QgsVectorLayer) -> None:
         root = QgsRuleBasedRenderer.Rule(None)
         is_index = f'round("ELEV" / {interval.height!r}) % {INDEX} = 0'
-        rule = is_index
-        for properties, lines in ((_THICK, INDEX), (_THIN, 1)):
+        is_depression = '"DEPRESSION" = 1'
+        is_drawing = layer.fields().lookupField("ELEV") < 0
+        if is_drawing:  # DXF has layers in place of fields
+            is_index, is_depression = "\"Layer\" LIKE '%INDEX'", "\"Layer\" LIKE 'DEPRESSION%'"
+        kinds = (_THICK, INDEX, is_index), (_THIN, 1, f"NOT ({is_index})")
+        for properties, lines, rule in kinds:
             symbol = QgsLineSymbol.createSimple(properties)
             words = tr("Every {}").format(interval.in_words(lines))
             root.appendChild(QgsRuleBasedRenderer.Rule(symbol, 0, 0, rule, words))
-            rule = "ELSE"
+        rule = QgsRuleBasedRenderer.Rule(_ticks(), 0, 0, is_depression, tr("Depression"))
+        root.appendChild(rule)
         layer.setRenderer(QgsRuleBasedRenderer(root))
+        if is_drawing:
+            return
         labels = QgsRuleBasedLabeling.Rule(None)
         labels.appendChild(QgsRuleBasedLabeling.Rule(_label(), 0, 0, is_index))
         layer.setLabeling(QgsRuleBasedLabeling(labels))
@@ -138,6 +150,17 @@ def _mark(colour: str, size: str = "3") -> QgsMarkerSymbol:
     return QgsMarkerSymbol.createSimple(
         {"name": "circle", "color": colour, "size": size, "outline_color": "#333333"}
     )
+
+
+def _ticks() -> QgsLineSymbol:
+    """Return ticks on the right of a line, where a contour line has the lower land."""
+    ticks = QgsHashedLineSymbolLayer(True, _TICKS_APART)
+    ticks.setSubSymbol(QgsLineSymbol.createSimple(_THIN))
+    ticks.setHashLength(_TICK)
+    ticks.setOffset(_TICK / 2)
+    symbol = QgsLineSymbol()
+    symbol.changeSymbolLayer(0, ticks)
+    return symbol
 
 
 def _label() -> QgsPalLayerSettings:

@@ -54,6 +54,8 @@ GIVEN = {
         "ERROR_MAP": "OUT/map.tif",
     },
     "removeoffterrainobjects": {"INPUT": "IN/surface.tif", "OUTPUT": "OUT/dtm.tif"},
+    "clip": {"INPUT": "IN/ground.laz", "EXTENT": WINDOW, "OUTPUT": "OUT/out.laz"},
+    "contours": {"INPUT": "IN/surface.tif", "OUTPUT": "OUT/lines.gpkg"},
     "canopyheight": {
         "SURFACE": "IN/surface.tif", "TERRAIN": "IN/surface.tif", "OUTPUT": "OUT/chm.tif",
     },

@@ -50,7 +50,7 @@ PARAMETERS = {
         "DTM_CELL_SIZE", "DTM_CELL_UNIT", "RASTER_NODATA",
         "HILLSHADE_LIGHT", "HILLSHADE_AZIMUTH", "HILLSHADE_ALTITUDE",
         "RELIEF_SMOOTHING", "RELIEF_RADIUS", "ERROR_FACTOR",
-        "CONTOUR_INTERVAL", "CONTOUR_SMOOTHING", "CONTOUR_MIN_LENGTH",
+        "CONTOUR_INTERVAL", "CONTOUR_SMOOTHING", "CONTOUR_MIN_LENGTH", "CONTOUR_KNOLLS",
         "FROM_CLASSES", "SEED_CLASSES", "TO_CLASS", "RETURNS", "OVERLAP", "OTHERS",
         "LOW_NOISE_CLASS", "LOW_NOISE_DEPTH", "HIGH_NOISE_CLASS", "HIGH_NOISE_HEIGHT",
         "BRIDGES", "BRIDGE_CLASS", "REMEMBER_CLASSES",
@@ -158,7 +158,14 @@ PARAMETERS = {
     "bareearth:removeoffterrainobjects": [
         "INPUT", "MAX_OBJECT_SIZE", "SLOPE_THRESHOLD", "BAND", "OUTPUT",
     ],
+    "bareearth:clip": [
+        "INPUT", "EXTENT", "BOUNDARY", "CRS", "THREADS", "MEMORY", "LIMIT", "OUTPUT",
+    ],
     "bareearth:canopyheight": ["SURFACE", "TERRAIN", "PIT_FREE", "OUTPUT"],
+    "bareearth:contours": [
+        "INPUT", "CONTOUR_INTERVAL", "CONTOUR_SMOOTHING", "CONTOUR_MIN_LENGTH", "CONTOUR_KNOLLS",
+        "OUTPUT",
+    ],
 }  # fmt: skip
 OUTPUTS = {
     "bareearth:tindensification": SHARED_OUTPUTS,
@@ -272,6 +279,8 @@ OUTPUTS = {
     ],
     "bareearth:removeoffterrainobjects": ["OUTPUT", "CELL_COUNT", "REMOVED_COUNT"],
     "bareearth:canopyheight": ["OUTPUT", "CELL_COUNT", "MAXIMUM"],
+    "bareearth:clip": ["OUTPUT", "POINT_COUNT"],
+    "bareearth:contours": ["OUTPUT", "LINE_COUNT", "HEIGHT"],
 }
 MODELS = {
     "bareearth:terraincontours": [

@@ -134,6 +134,7 @@ def test_the_log_of_a_run_is_in_one_language(registry, marked, tmp_path, context
         },
         "bareearth:relief": {"INPUT": terrain, "OUTPUT_FOLDER": str(tmp_path / "relief")},
         "bareearth:removeoffterrainobjects": {"INPUT": terrain, "OUTPUT": out + ".tif"},
+        "bareearth:contours": {"INPUT": terrain, "OUTPUT": out + ".gpkg"},
         "bareearth:canopyheight": {
             "SURFACE": terrain, "TERRAIN": terrain, "OUTPUT": out + "c.tif",
         },

@@ -345,6 +345,7 @@ COMMANDS = {
     "key-points": ((), ("out.laz",)),
     "terrain": ((), ("--dtm", "dtm.tif")),
     "water": ((), ("water.gpkg",)),
+    "clip": ((), ("out.laz", "--extent", "499000", "5690000", "501000", "5710000")),
     "water-classes": ((), ("out.laz", "--water", "water.geojson")),
     "compare-settings": ((), ("out.html",)),
 }

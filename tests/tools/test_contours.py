@@ -147,10 +147,142 @@ def test_small_rings_are_left_out_and_large_ones_stay(tmp_path):
     path, lines = raster(tmp_path / "dtm.tif", heights), tmp_path / "lines.geojson"
     lengths = {}
     for least in (0.0, 4.6, 18.0):
-        contours(path, lines, interval=0.5, contour_smoothing=0, contour_min_length=least)
+        contours(
+            path, lines, interval=0.5, contour_smoothing=0, contour_min_length=least,
+            contour_knolls=False,
+        )  # fmt: skip
         lengths[least] = [np.hypot(*np.diff(shape, axis=0).T).sum() for shape in read(lines)[2]]
         assert min(lengths[least]) >= least
     assert [len(value) for value in lengths.values()] == [6, 4, 2]
+
+
+# Row, column, height and standard deviation in cells: two knolls and two pits of 4 and 20 m².
+FORMS = ((30, 30, -1.1, 1.9), (30, 90, 1.1, 1.9), (90, 30, -2.0, 4.3), (90, 90, 2.0, 4.3))
+
+
+def knolls_and_pits(noise=0.03):
+    rows, columns = np.mgrid[:120.0, :120.0]
+    heights = 100.2 + 0.01 * columns
+    for row, column, height, sigma in FORMS:
+        away = np.hypot(rows - row, columns - column)
+        heights += height * np.exp(-(away**2) / 2 / sigma**2)
+    return heights + np.random.default_rng(6).normal(0.0, noise, heights.shape)
+
+
+def marked(values, shapes):
+    """Return whether there is a closed line round each form, and what these are marked as."""
+    found = []
+    for row, column, _, _ in FORMS:
+        middle = EAST + 0.5 * (column + 0.5), NORTH - 0.5 * (row + 0.5)
+        found.append(
+            {
+                value["DEPRESSION"]
+                for value, shape in zip(values, shapes)
+                if (shape[0] == shape[-1]).all() and (np.abs(shape - middle) < 6.0).all()
+            }
+        )
+    return found
+
+
+def test_small_knolls_and_pits_stay_and_depressions_are_marked(tmp_path):
+    path, lines = raster(tmp_path / "dtm.tif", knolls_and_pits()), tmp_path / "lines.geojson"
+    summary = contours(path, lines, interval=0.5)
+    _, values, shapes = read(lines)
+    assert marked(values, shapes) == [{1}, {0}, {1}, {0}]
+    assert summary.line_count == len(values)
+    is_open = [not (shape[0] == shape[-1]).all() for shape in shapes]
+    assert any(is_open) and not any(
+        value["DEPRESSION"] for value, opened in zip(values, is_open) if opened
+    )
+    # Nothing else is round and small.
+    assert len(values) - sum(is_open) < 20
+    contours(path, lines, interval=0.5, contour_knolls=False)
+    assert marked(*read(lines)[1:])[1:] == [set(), {1}, {0}]
+
+
+@pytest.mark.parametrize("turned", [(1, -1), (-1, 1), (-1, -1)])
+def test_depressions_do_not_depend_on_how_rows_run(turned, tmp_path):
+    heights = knolls_and_pits()
+    path = raster(tmp_path / "dtm.tif", heights[:: turned[0], :: turned[1]])
+    with rasterio.open(path, "r+") as file:
+        file.transform = rasterio.Affine(
+            0.5 * turned[1], 0.0, EAST + (60.0 if turned[1] < 0 else 0.0),
+            0.0, -0.5 * turned[0], NORTH - (60.0 if turned[0] < 0 else 0.0),
+        )  # fmt: skip
+    lines = tmp_path / "lines.geojson"
+    contours(path, lines, interval=0.5)
+    _, values, shapes = read(lines)
+    assert marked(values, shapes) == [{1}, {0}, {1}, {0}]
+    for value, shape in zip(values, shapes):
+        if (shape[0] == shape[-1]).all():  # higher ground is on the left
+            x, y = (shape - shape[0]).T
+            area = np.sum(x[:-1] * y[1:] - x[1:] * y[:-1])
+            assert (area < 0) == bool(value["DEPRESSION"])
+
+
+def test_strips_make_no_difference_to_knolls(tmp_path, monkeypatch):
+    path = raster(tmp_path / "dtm.tif", knolls_and_pits())
+    contours(path, tmp_path / "one.geojson", interval=0.25)
+    monkeypatch.setattr(contours_module, "_CELLS", 500)
+    contours(path, tmp_path / "many.geojson", interval=0.25)
+    one, many = (
+        sorted(
+            (value["ELEV"], value["DEPRESSION"], len(shape))
+            for value, shape in zip(*read(tmp_path / f"{name}.geojson")[1:])
+        )
+        for name in ("one", "many")
+    )
+    assert one == many and len(one) > 10
+
+
+def test_smoothing_moves_heights_by_a_quarter_of_the_interval_at_most(tmp_path):
+    rows, columns = np.mgrid[:80.0, :120.0]
+    # A bank 2 m wide and 1 m high, which smoothing over 6 m alone would nearly level.
+    heights = 100.1 + np.where(np.abs(rows - 40) < 2, 1.0, 0.0) + 0.0 * columns
+    path, lines = raster(tmp_path / "dtm.tif", heights), tmp_path / "lines.geojson"
+    contours(path, lines, interval=0.5, contour_smoothing=6.0)
+    assert {value["ELEV"] for value in read(lines)[1]} == {100.5}
+
+
+def groups_of(path):
+    """Return the polylines of a drawing: layer, flags, elevation and corners (x, y, z)."""
+    words = [line.strip() for line in path.read_text(encoding="ascii").splitlines()]
+    found, entity, groups = [], "", {}
+    for code, value in [*zip(words[::2], words[1::2]), ("0", "")]:
+        if code != "0":
+            groups[code] = value
+            continue
+        place = tuple(float(groups.get(key, 0)) for key in ("10", "20", "30"))
+        if entity == "POLYLINE":
+            found.append((groups["8"], int(groups["70"]), place[2], []))
+        elif entity == "VERTEX":
+            found[-1][3].append(place)
+        entity, groups = value, {}
+    return found
+
+
+def test_a_drawing_has_layers_heights_and_closed_lines(tmp_path):
+    path = raster(tmp_path / "dtm.tif", knolls_and_pits())
+    heard = Heard()
+    contours(path, tmp_path / "lines.dxf", interval=0.5, progress=heard)
+    contours(path, tmp_path / "lines.geojson", interval=0.5)
+    assert any("EPSG:25832" in text for text in heard.infos)
+    _, values, shapes = read(tmp_path / "lines.geojson")
+    drawn = groups_of(tmp_path / "lines.dxf")
+    assert len(drawn) == len(values) >= 10
+    for (layer, flags, elevation, corners), value, shape in zip(drawn, values, shapes):
+        name = "DEPRESSION" if value["DEPRESSION"] else "CONTOUR"
+        assert layer == name + ("_INDEX" if value["INDEX"] else "")
+        is_closed = bool((shape[0] == shape[-1]).all())
+        assert flags == int(is_closed) and elevation == value["ELEV"]
+        assert np.allclose(np.array(corners)[:, :2], shape[: len(shape) - is_closed], atol=6e-4)
+        assert {corner[2] for corner in corners} == {value["ELEV"]}
+
+
+def test_a_raster_without_heights_is_told(tmp_path):
+    path, heard = raster(tmp_path / "dtm.tif", np.full((9, 9), np.nan)), Heard()
+    assert contours(path, tmp_path / "lines.geojson", progress=heard).line_count == 0
+    assert any("has no cell with a height" in text for text in heard.warnings)
 
 
 @pytest.mark.parametrize("suffix", [".gpkg", ".shp", ".fgb", ".geojson"])

@@ -1,0 +1,146 @@
+"""Clips point clouds: the points in an area, with all that their files have of them."""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Any, Sequence
+
+import numpy as np
+
+from ..core.errors import BareEarthError
+from ..core.points import Box
+from ..core.progress import SILENT, Progress
+from ..engine.blocks import Blocks
+from ..engine.step import Allocate, PointResult, PointStep, Step
+from ..engine.store import Marks
+from ..engine.summary import TileSummary
+from ..las.cloud import PointCloud
+from ..las.edits import Edits
+from ..las.lasfile import LasFile
+from ..survey.area import Area
+from ..survey.shapes import Place, outside
+from .declaration import CLOUD, POINTS, TILES, Input, PointTool
+
+
+@dataclass(frozen=True, order=True)
+class ClipSummary(TileSummary):
+    """The points of a file that lie in the area."""
+
+    name: str  # of the output
+    point_count: int = 0  # in the output
+    input_count: int = 0
+    class_counts: dict[int, int] = field(default_factory=dict)  # in the output
+
+    @property
+    def text(self) -> str:
+        """The summary as a sentence."""
+        return f"{self.name}: {self.point_count:,} of {self.input_count:,} points lie in the area"
+
+
+@dataclass(frozen=True)
+class Clip(PointStep):
+    """Finds the points in an area, which alone are written."""
+
+    area: Area | None = None
+
+    counts = Counter
+    blocks = Blocks.of(1.0)
+    gives_classes = False
+    writes_all = False
+    summary_type = ClipSummary
+
+    @property
+    def wanted(self) -> Area:
+        """The area; without one there is nothing to clip."""
+        if self.area is None:
+            raise BareEarthError("Give an extent or a boundary: the points in it are written.")
+        return self.area
+
+    def placed(self, place: Place, progress: Progress = SILENT) -> Clip:
+        """Refuse to clip by no area, and polygons where the points are in degrees."""
+        if self.wanted.polygons and place.crs.is_geographic:
+            raise BareEarthError(
+                f"{place.name} is in degrees ({place.crs.name}): give an extent, since boundaries"
+                " are not transformed to such a CRS."
+            )
+        return self
+
+    def check_survey(self, box: Box, steps: Sequence[Step]) -> None:
+        """Refuse an area that the survey does not touch."""
+        if not self.wanted.may_touch(box):
+            raise outside("the area", self.wanted.bounds, "the files", box)
+
+    def skips(self, tile: LasFile) -> bool:
+        """Return whether a file lies outside the area."""
+        return not self.wanted.may_touch(tile.outer_box)
+
+    def marks(self, part: PointCloud, counts: Any) -> Marks:
+        """Mark no point, since none needs others."""
+        none = np.zeros(part.count, dtype=bool)
+        return Marks(none, none, none)
+
+    def result(self, path: Path, allocate: Allocate) -> ClippedPoints:
+        """Return an object that collects the points of a file in the area."""
+        return ClippedPoints(self, path, allocate)
+
+
+class ClippedPoints(PointResult):
+    """Which points of a file are written; `allocate` returns an array, one value a point."""
+
+    def __init__(self, step: Clip, path: Path, allocate: Allocate) -> None:
+        super().__init__(step)
+        self.kept: np.ndarray = allocate(bool)
+        self._path, self._count = path, 0
+
+    def add(self, where: slice, before: PointCloud, after: PointCloud, values: np.ndarray) -> None:
+        """Find some points in the area."""
+        inside = self._step.wanted.of(before)
+        self.kept[where] = inside
+        self._count += int(np.count_nonzero(inside))
+
+    @property
+    def is_empty(self) -> bool:
+        """Whether no point lies in the area."""
+        return not self._count
+
+    def edits(self, cloud: PointCloud, progress: Progress = SILENT) -> Edits:
+        """Return which points are written; refuse a file with none in the area."""
+        if self.is_empty:
+            box = cloud.box if cloud.file is None else cloud.file.outer_box
+            raise outside("the area", self._step.wanted.bounds, str(self._path), box)
+        return Edits(kept=self.kept)
+
+    def summary(self, name: str, class_counts: dict[int, int]) -> ClipSummary:
+        """Return the numbers of points."""
+        return ClipSummary(name, self._count, len(self.kept), class_counts)
+
+
+TOOL = PointTool(
+    step=Clip,
+    points=replace(POINTS, help="", label="Point cloud"),
+    list_name="clipped.vpc",
+    sets=(),
+    inputs=(
+        Input(
+            "area",
+            "area",
+            help="Only points in {area} are written. One of extent and boundary is needed.",
+            label="Area",
+            optional=True,
+        ),
+    ),
+    command="clip",
+    identifier="clip",
+    title="Clip point clouds",
+    about="The points in an extent or in polygons are written as they are, in their order, with"
+    " their classes, all dimensions, extra bytes and records. Nothing is classified. Of many files"
+    " each with points there becomes a file in a folder; of remote point clouds only the part that"
+    " is needed is downloaded.",
+    page="many-files#clip",
+    words=(CLOUD, TILES, "clip,crop,cut,extent,boundary,polygon,subset,las2las,pdal crop"),
+    output_label="Clipped point cloud",
+    output_help="The points in the area.",
+    numbers=(("POINT_COUNT", "Points"),),
+)
