@@ -81,6 +81,7 @@ COMMANDS = {
     " 570020 5932503",
     # From one raster to another.
     "contours": "contours terrain/file/dtm.tif OUT/lines.geojson --interval 0.5 --json",
+    "canopy": "canopy terrain/file/dsm.tif terrain/file/dtm.tif OUT/chm.tif --pit-free --json",
     "off-terrain": "remove-off-terrain-objects terrain/file/dsm.tif OUT/dtm.tif --json",
     **{
         f"relief/{kind}": f"relief terrain/file/dtm.tif OUT/relief.tif --kind {kind}"
@@ -104,6 +105,8 @@ COMMANDS = {
     " 200 --min-width 4 --json",
     "water/survey": "water truth OUT/water.gpkg --breaklines-out OUT/lines.gpkg --min-area 200",
     "water-classes/file": "water-classes truth.laz OUT/a.laz --water water.geojson --json",
+    "clip/file": "clip truth.laz OUT/a.laz --boundary boundary.geojson --json",
+    "clip/survey": "clip truth OUT/tiles --extent 569970 5932470 570020 5932530",
     "water-classes/survey": "water-classes truth OUT/tiles --water water.geojson"
     " --shore-distance 1",
     # Parts.

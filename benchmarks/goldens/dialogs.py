@@ -75,11 +75,21 @@ RUNS: dict[str, tuple[str, dict[str, Any]]] = {
         "OUTPUT": "OUT/places.gpkg",
         "REPORT": "OUT/page.html",
     }),
+    "contours": ("contours", {
+        "INPUT": "terrain/dtm.tif", "CONTOUR_INTERVAL": 0.5, "OUTPUT": "OUT/lines.gpkg",
+    }),
+    "canopy": ("canopyheight", {
+        "SURFACE": "terrain/dsm.tif", "TERRAIN": "terrain/dtm.tif", "OUTPUT": "OUT/chm.tif",
+    }),
     "off-terrain": ("removeoffterrainobjects", {"INPUT": "terrain/dsm.tif", "OUTPUT": "OUT/a.tif"}),
     "above-ground": ("classifyaboveground", {
         "INPUT": "truth.laz", "ABOVE_GROUND": "ign", "RECLASSIFY": True, "OUTPUT": "OUT/a.laz",
     }),
     "heights": ("heightaboveground", {"INPUT": "truth.laz", "OUTPUT": "OUT/a.laz"}),
+    "clip": ("clip", {
+        "INPUT": "truth.laz", "EXTENT": "569970,570020,5932470,5932530 [EPSG:25832]",
+        "OUTPUT": "OUT/a.laz",
+    }),
     "key-points": ("modelkeypoints", {"INPUT": "truth.laz", "OUTPUT": "OUT/a.laz"}),
     "water": ("water", {
         "INPUT": "truth.laz", "MIN_AREA": 200, "OUTPUT": "OUT/water.gpkg",

@@ -30,6 +30,7 @@ FUNCTIONS: dict[str, Callable[[Path], Any]] = {
     "water_classes": lambda out: bare.water_classes(
         _TRUTH, out / "a.las", water="water.geojson"
     ),
+    "clip": lambda out: bare.clip(_TRUTH, out / "a.las", extent=_WINDOW),
     "assess": lambda out: bare.assess("classify/slope/a.laz", _TRUTH),
     "quality": lambda out: bare.quality(_TILES, page=out / "page.html"),
     "water": lambda out: bare.water(_TRUTH, out / "water.geojson", min_area=200.0),
@@ -40,6 +41,7 @@ FUNCTIONS: dict[str, Callable[[Path], Any]] = {
         "terrain/file/error.tif", out / "places.geojson", least_area=1.0
     ),
     "contours": lambda out: bare.contours(_DTM, out / "lines.geojson"),
+    "canopy": lambda out: bare.canopy("terrain/file/dsm.tif", _DTM, out / "chm.tif"),
     "relief": lambda out: bare.relief(_DTM, out / "sky.tif", kind="sky-view"),
     "remove_off_terrain_objects": lambda out: bare.remove_off_terrain_objects(
         "terrain/file/dsm.tif", out / "dtm.tif"
