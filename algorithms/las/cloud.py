@@ -51,7 +51,7 @@ class PointCloud:
     # uint8 (n,), classes of an earlier run, the dimension `REMEMBERED`.
     remembered: np.ndarray | None = None
     gps_time: np.ndarray | None = None  # float64 (n,), if it was read
-    # uint16 (n,), flight strips (point source ids), if they were read.
+    # uint16 (n,), flight strips (point source ids; where these are 0, that of the file), if read.
     strip: np.ndarray | None = None
     synthetic: np.ndarray | None = None  # bool (n,), points made and not measured, if it was read
     # uint8 (n,): bits of the looks in which points are ground, if there were several.

@@ -28,6 +28,7 @@ class Field(NamedTuple):
         struct.pack_into(f"<{self.layout}", header, self.start, *values)
 
 
+FILE_SOURCE_ID = Field(4, "H")  # since LAS 1.1
 GLOBAL_ENCODING = Field(6, "H")
 VERSION = Field(24, "2B")
 SYSTEM = Field(26, "32s")

@@ -107,6 +107,11 @@ class LasFile:
         return fields.VERSION.get(self.header)[1]
 
     @property
+    def source_id(self) -> int:
+        """The flight strip or other source of the points that state none; 0 if it is not known."""
+        return fields.FILE_SOURCE_ID.get(self.header) if self.minor_version else 0
+
+    @property
     def global_encoding(self) -> int:
         """Bit 0 GPS time type, 1 and 2 waveforms inside or outside, 4 CRS as WKT."""
         return fields.GLOBAL_ENCODING.get(self.header)

@@ -83,7 +83,9 @@ def read_parts(
         if times:
             part.gps_time = np.array(chunk["gps_time"], dtype=np.float64)
         if strips:
-            part.strip = np.array(chunk["point_source_id"], dtype=np.uint16)
+            strip = np.array(chunk["point_source_id"], dtype=np.uint16)
+            # LAS specification: a point source id of 0 means the file source id.
+            part.strip = np.where(strip, strip, np.uint16(layout.source_id))
             part.synthetic = np.array(chunk["synthetic"], dtype=bool)
         yield count_from_one(part)
         start += len(chunk)

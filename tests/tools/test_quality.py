@@ -190,6 +190,24 @@ def test_two_strips_with_a_known_offset(tmp_path, offset, state):
     assert np.nanmax(number) == 2 and number[25, 5] == 1 and number[25, 25] == 2
 
 
+def test_points_without_a_source_id_belong_to_the_strip_of_their_file(tmp_path):
+    x, y = grid(0.5)
+    files = [tmp_path / "one.laz", tmp_path / "two.laz"]
+    for number, path in enumerate(files):
+        there = x < 70 if number == 0 else x > 30
+        here = x[there] + 0.25 * number, y[there]
+        source = np.where(here[1] < 10, 7, 0)  # some points state a strip of their own
+        z = terrain(*here) + 0.12 * number
+        write(path, *here, z, point_source_id=source)
+        with path.open("r+b") as file:
+            file.seek(4)  # the file source id
+            file.write([40, 65535][number].to_bytes(2, "little"))
+    found = measured(*files, specification="lbs-ql2")
+    assert found.strips == [7, 40, 65535]
+    assert found.strip_rms == pytest.approx(0.12, abs=0.005)
+    assert states(found)["Differences between strips"] == "fail"
+
+
 @pytest.mark.parametrize("version, point_format", [("1.2", 1), ("1.4", 6), ("1.4", 7)])
 @pytest.mark.parametrize("name", ["in.las", "in.laz"])
 def test_the_strips_of_points_are_read_if_wanted(tmp_path, version, point_format, name):
