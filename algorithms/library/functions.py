@@ -73,6 +73,7 @@ class Function:
     # Other names of parameters with several values, which take one value.
     flags: Mapping[str, str] = field(default_factory=dict)
     without: tuple[str, ...] = ()  # parameters of the sets that have no effect in it
+    looks_around: bool = True  # as of the tool
 
     @property
     def parameters(self) -> list[Described]:
@@ -156,7 +157,8 @@ class Function:
 
     def work(self, values: SimpleNamespace, sets: Sequence[ParameterSet]) -> Any:
         """Download points that are given by address, and run."""
-        with bring_points((*self.positional, *self.keywords), values, sets):
+        arguments = *self.positional, *self.keywords
+        with bring_points(arguments, values, sets, self.looks_around):
             return self.run(values, sets)
 
     def callable(self, module: str = PACKAGE) -> Callable[..., Any]:

@@ -30,7 +30,10 @@ SHARE = 0.5
 
 
 def bring_points(
-    arguments: Sequence[Argument], values: SimpleNamespace, sets: Sequence[ParameterSet]
+    arguments: Sequence[Argument],
+    values: SimpleNamespace,
+    sets: Sequence[ParameterSet],
+    looks_around: bool = True,
 ) -> ContextManager[None]:
     """Put files of the cache in the place of addresses of point clouds; with what is returned,
     errors name the addresses.
@@ -51,7 +54,8 @@ def bring_points(
     area, crs = area_of(SimpleNamespace(**edges)), stated_crs(getattr(values, "crs", None))
     if area is not None:
         makes_rasters = any(getattr(values, name, None) for name in (*RASTERS, "contours"))
-        margin = margin_of(sets, hasattr(values, "explain") and not makes_rasters)
+        is_alone = hasattr(values, "explain") and not makes_rasters
+        margin = margin_of(sets, is_alone) if looks_around else 0.0
         area = Surroundings(area.box, area.polygons, margin, crs)
     advice = "Choose a smaller area"
     if not area:
@@ -59,7 +63,7 @@ def bring_points(
     if "extent" not in names:
         advice = f"Download a part of it first, with {tool('fetch')}"
     # A tool without parameters only describes the points.
-    wanted = Wanted(area, most=most_bytes(values), crs=crs, is_measured=bool(sets))
+    wanted = Wanted(area, most=most_bytes(values), crs=crs, is_measured=bool(sets) and looks_around)
     progress = progress_of(values.progress)
     place = cache_of(values.cache), advice, progress.part(0.0, SHARE)
     inputs, found = bring_all(given, wanted, *place)

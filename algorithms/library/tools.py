@@ -163,6 +163,7 @@ def _of_point_tool(command: str) -> Function:
         (*tool.sets, TileInput, TileOutput, Resources),
         partial(_run_on_points, tool),
         tool.step.summary_type,
+        looks_around=tool.looks_around,
     )  # fmt: skip
 
 

@@ -121,6 +121,7 @@ TOOL = PointTool(
     step=Clip,
     points=replace(POINTS, help="", label="Point cloud"),
     list_name="clipped.vpc",
+    looks_around=False,
     sets=(),
     inputs=(
         Input(

@@ -190,6 +190,7 @@ class Tool:
     json: str | None = "what was done"  # what --json prints; None if there is no result
     # The sets of the dialog if its order differs; derived classes if its defaults differ.
     dialog_sets: tuple[type[ParameterSet], ...] = ()
+    looks_around: bool = True  # whether it measures, and points round an area matter
     # Parameters that the dialog does not fold away; None for those that are not advanced.
     shown: tuple[str, ...] | None = None
 

@@ -204,10 +204,12 @@ class ToolAlgorithm(BareEarthAlgorithm):
             is_alone = getattr(self._tool, "classifies", False) and all(
                 compat.is_empty(parameters.get(name)) for name in rasters
             )
-            margin = margin_of(self.chosen(parameters, context), is_alone)
+            if self._tool.looks_around:
+                margin = margin_of(self.chosen(parameters, context), is_alone)
         crs, limit = stated_crs(self.stated), self.parameterAsDouble(parameters, LIMIT, context)
         part = Surroundings(area.box, area.polygons, margin, crs)
-        wanted = Wanted(part, most=limit * 1e9, crs=crs, is_measured=True)
+        is_measured = self._tool.looks_around
+        wanted = Wanted(part, most=limit * 1e9, crs=crs, is_measured=is_measured)
         sources: dict[str, list[str | Path]] = {
             name: [*(remote.address for remote in found.remotes), *found.paths]
             for name, found in far.items()

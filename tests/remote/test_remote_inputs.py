@@ -345,7 +345,6 @@ COMMANDS = {
     "key-points": ((), ("out.laz",)),
     "terrain": ((), ("--dtm", "dtm.tif")),
     "water": ((), ("water.gpkg",)),
-    "clip": ((), ("out.laz", "--extent", "499000", "5690000", "501000", "5710000")),
     "water-classes": ((), ("out.laz", "--water", "water.geojson")),
     "compare-settings": ((), ("out.html",)),
 }
@@ -387,10 +386,28 @@ def test_a_file_in_web_mercator_is_described(server, mercator, tmp_path):
     assert said(*words)[0] == 0
 
 
+def test_a_clip_needs_no_surroundings_and_may_be_in_web_mercator(
+    server, tiles, mercator, tmp_path, monkeypatch
+):
+    monkeypatch.setattr(files, "_FIRST", 2_000)
+    monkeypatch.setattr(files, "_WIDEST_GAP", 0)
+    bare_earth.clip(tiles[0], tmp_path / "here.laz", extent=BOX)
+    bare_earth.clip(add(server, tiles[0]), tmp_path / "out.laz", extent=BOX)
+    header = laspy.read(tmp_path / "out.laz").header
+    assert header.point_count == len(labels_in(tmp_path / "here.laz")) > 500
+    assert np.array_equal(labels_in(tmp_path / "here.laz"), labels_in(tmp_path / "out.laz"))
+    assert laspy.read(cached(tmp_path)[0]).header.point_count == header.point_count
+    extent = WEST + 100, SOUTH + 100, WEST + 200, SOUTH + 200
+    bare_earth.clip(add(server, mercator), tmp_path / "usa.laz", extent=extent)
+    whole, part = laspy.read(mercator), laspy.read(tmp_path / "usa.laz")
+    assert part.header.point_count == len(labels_in(mercator, extent)) > 1_000
+    assert whole.header.parse_crs() == part.header.parse_crs()
+
+
 def test_every_command_with_addresses_is_tried():
     names = re.findall(r"^    ([a-z-]+)", said("--help")[1], re.MULTILINE)
     with_cache = {name for name in names if "--cache" in said(name, "--help")[1]}
-    assert {*COMMANDS, "info", "assess", "clear-cache"} == with_cache
+    assert {*COMMANDS, "info", "assess", "clip", "clear-cache"} == with_cache
 
 
 def test_a_moved_area_needs_only_what_is_not_here(server, tiles, tmp_path, monkeypatch):
