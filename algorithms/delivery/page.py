@@ -50,7 +50,8 @@ _STYLE = f"""
 _ABOUT = {
     WITH_BUILDINGS: "The terrain with the buildings on it: the highest point of ground or buildings"
     " in each cell.",
-    "contours": "Contour lines; the field ELEV has the height, INDEX is 1 for every fifth line.",
+    "contours": "Contour lines; the field ELEV has the height, INDEX is 1 for every fifth line,"
+    " DEPRESSION for closed lines round lower land.",
     "water": "Lakes and rivers as polygons, with their level, the spread of their shore and a grade"
     " of certainty. They are flat in the terrain model.",
     "breaklines": "Shores, islands and the middles of rivers, and breaklines that were given; with"

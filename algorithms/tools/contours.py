@@ -230,7 +230,7 @@ class _Smoothing(NamedTuple):
         )
         # A ring that ends in a strip lies in the rows of it, and in some before.
         reach = max(reach_of(sigma[0]), 3 * _half(sigma)) if _smooths(sigma) else 0
-        reach += max(reach_of(wide[0]), math.ceil(ring / 2 / cells[0])) if _smooths(wide) else 0
+        reach += reach_of(wide[0]) + math.ceil(ring / 2 / cells[0]) if _smooths(wide) else 0
         return cls(sigma, little, wide, _MOST_MOVED * interval, reach)
 
     def smoothed(self, heights: np.ndarray) -> np.ndarray:
