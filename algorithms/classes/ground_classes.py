@@ -12,7 +12,7 @@ from ..core.errors import BareEarthError
 from ..core.parameters import ParameterSet, parameter, parameter_of
 from ..core.progress import Progress
 from ..las.cloud import PointCloud
-from .kept_classes import used
+from .kept_classes import reserved, used
 from .point_counts import count_classes
 from .selection import Selection
 from .without_ground import WithoutGround, refuse_groundless, tell_of_groundless
@@ -72,6 +72,12 @@ class GroundClasses(ParameterSet):
         if not classes:
             return np.zeros(part.count, dtype=bool)
         return np.isin(part.classification, classes) & self.used(part)
+
+    def roads_of(self, part: PointCloud, roads: Sequence[int]) -> np.ndarray:
+        """Return which points are of roads and rails; none where the point format reserves these
+        classes.
+        """
+        return self.points_of(part, roads) & ~reserved(part)
 
     def used(self, part: PointCloud) -> np.ndarray:
         """Return which points are used, of any class; boolean, shape (n,)."""

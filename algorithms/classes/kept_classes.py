@@ -10,6 +10,7 @@ from ..core.progress import Progress
 from ..core.words import counted, option
 from ..las.class_names import named_class
 from ..las.cloud import PointCloud
+from ..las.lasfile import FIRST_EXTENDED_FORMAT
 from .point_counts import PointCounts
 
 NEVER_CLASSIFIED = 0
@@ -24,6 +25,9 @@ DECIDED = (0, 1, 2, 3, 4, 5, 6, 8, 12)
 # Rails and roads keep their class, but they mostly lie on the ground, and often no other points of
 # the ground exist there. So they take part in the filter.
 ROADS = (10, 11)
+# Classes without a meaning in point formats 0 to 5, to which producers have given many: 11 was
+# withheld in old data of the USA, 18 overlap.
+RESERVED = (10, 11, *range(13, 32))
 # In point formats 0 to 5 overlap is a class; the others have a flag for it.
 OVERLAP = 12
 # Ground next to a shore or breakline, which terrain models do not use.
@@ -39,27 +43,41 @@ def tell_of_kept(counts: PointCounts, others: Collection[int], progress: Progres
     """Report the classes that stay by default, and how to classify them as well; `others` are
     classes that do not stay.
     """
-    present = set(np.flatnonzero(counts.classes).tolist())
-    kept = present - {*DECIDED, *NOISE, *others}
+    unknown = np.where(np.isin(np.arange(256), [*others]), 0, counts.reserved)
+    numbers = counts.classes - unknown
+    kept = set(np.flatnonzero(numbers).tolist()) - {*DECIDED, *NOISE, *others}
     roads, not_used = sorted(kept & set(ROADS)), sorted(kept - set(ROADS))
+    all_too = f"To classify them too, give {option('from_classes', ALL_CLASSES)}."
     if roads:
         progress.info(
-            f"{_counted(counts, roads)} keep their class. Where they lie on the ground, they"
+            f"{_counted(numbers, roads)} keep their class. Where they lie on the ground, they"
             " support it."
         )
     if not_used:
         progress.info(
-            f"{_counted(counts, not_used)} keep their class and do not take part. To classify them"
-            f" too, give {option('from_classes', ALL_CLASSES)}."
+            f"{_counted(numbers, not_used)} keep their class and do not take part. {all_too}"
+        )
+    if unknown.any():
+        there = np.flatnonzero(unknown).tolist()
+        progress.info(
+            f"{_counted(unknown, there, named=False)} keep their class and do not take part: point"
+            f" formats 0 to 5 reserve these classes, so what they mean is not known. {all_too}"
         )
 
 
-def _counted(counts: PointCounts, classes: Sequence[int]) -> str:
+def _counted(numbers: np.ndarray, classes: Sequence[int], named: bool = True) -> str:
     """Return the numbers of points of some classes in words."""
-    first, *others = classes
-    words = [f"{counted(int(counts.classes[first]), 'point')} of {named_class(first)}"]
-    words += [f"{int(counts.classes[code]):,} of {named_class(code)}" for code in others]
+    names = [named_class(code) if named else f"class {code}" for code in classes]
+    words = [f"{int(numbers[code]):,} of {name}" for code, name in zip(classes, names)]
+    words[0] = f"{counted(int(numbers[classes[0]]), 'point')} of {names[0]}"
     return ", ".join(words)
+
+
+def reserved(cloud: PointCloud) -> np.ndarray:
+    """Return which points have a class that their point format reserves, bool (n,)."""
+    if cloud.point_format >= FIRST_EXTENDED_FORMAT:
+        return np.zeros(cloud.count, dtype=bool)
+    return is_one_of(cloud.classification, RESERVED)
 
 
 def overlapping(cloud: PointCloud) -> np.ndarray:

@@ -8,6 +8,7 @@ import numpy as np
 
 from ..core.points import Box, box_round
 from ..core.threads import parts_of
+from ..core.words import option
 from ..las.cloud import PointCloud
 
 _STEP = 1 << 20
@@ -23,6 +24,7 @@ class PointCounts:
     overlap: int = 0
     from_zero: bool = False  # whether the return numbers begin at 0
     free: int = 0  # points in the area and its surroundings that are not withheld
+    in_use: int = 0  # of these, the points that are not overlap which is left out
     eligible: int = 0  # points that may change their class
     of_returns: int = 0  # eligible points of the chosen returns
     known: int = 0  # points of known ground
@@ -30,6 +32,8 @@ class PointCounts:
     selected: int = 0  # points that take part
     # int64 (256,), points of each class.
     classes: np.ndarray = field(default_factory=lambda: np.zeros(256, dtype=np.int64))
+    # int64 (256,), points of each class that their point format reserves.
+    reserved: np.ndarray = field(default_factory=lambda: np.zeros(256, dtype=np.int64))
     # int64 (256,), points of each class in the area and its surroundings.
     classes_within: np.ndarray = field(default_factory=lambda: np.zeros(256, dtype=np.int64))
     inside: int = 0  # points in the area itself
@@ -78,10 +82,16 @@ class PointCounts:
             return f"No point of {place} is a last or single return. Choose all returns instead."
         if not self.free:
             return f"All points of {place} are withheld. Clear that flag first."
-        present = ", ".join(map(str, np.flatnonzero(self.classes_within)))
+        if not self.in_use:
+            return (
+                f"All points of {place} are overlap of strips (by their flag or class 12), which is"
+                f" left out. Give {option('overlap', 'use')} to use them."
+            )
+        present = np.flatnonzero(self.classes_within).tolist()
+        classes = f"class{'es' if present[1:] else ''} {', '.join(map(str, present))}"
         return (
-            f"No point of {place} can be classified: it has only the classes {present}. Choose the"
-            " classes to classify among them."
+            f"No point of {place} can be classified: it has only the {classes}. Choose the classes"
+            " to classify among them."
         )
 
 

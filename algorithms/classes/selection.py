@@ -27,10 +27,11 @@ from .kept_classes import (
     UNCLASSIFIED,
     is_one_of,
     overlapping,
+    reserved,
     tell_of_kept,
     used,
 )
-from .point_counts import PointCounts
+from .point_counts import PointCounts, count_classes
 
 
 @dataclass(frozen=True)
@@ -47,7 +48,8 @@ class Selection(ParameterSet):
         word=ALL_CLASSES,
         help="Only points of these classes take part and may change their class. Empty: 0 to 6, 8,"
         " 12 and the class of the ground. Points of other classes, such as water (9) and bridge"
-        " decks (17), keep their class. Rails and roads (10 and 11) keep theirs too, but take part."
+        " decks (17), keep their class. Rails and roads (10 and 11) keep theirs too, but take part,"
+        " except in point formats 0 to 5, which reserve 10, 11 and 13 to 31."
         " all: all classes but low and high noise (7 and 18).",
     )
     seed_classes: tuple[int, ...] | None = parameter(
@@ -179,10 +181,15 @@ class Selection(ParameterSet):
         eligible = self._eligible(part, within)
         of_returns = self._of_returns(part, unnumbered)
         selected = eligible & of_returns
-        counts.add(part, within, unnumbered=unnumbered, eligible=eligible, of_returns=selected)
+        in_use = used(part, self.overlap) & (True if within is None else within)
+        masks = {"in_use": in_use, "unnumbered": unnumbered, "eligible": eligible}
+        counts.add(part, within, of_returns=selected, **masks)
         counts.add_counts(overlap=overlapping(part))
+        unknown = reserved(part)
+        counts.reserved += count_classes(part.classification[unknown])
         if self.roads:
-            selected = selected | (self._of_classes(part, self.roads, within) & of_returns)
+            roads = self._of_classes(part, self.roads, within) & ~unknown
+            selected = selected | (roads & of_returns)
         if self.seed_classes:
             known = self.known_ground(part, within)
             selected = selected | known
@@ -212,10 +219,9 @@ class Selection(ParameterSet):
         """Report how many points of a file take part, and why the others do not."""
         given = () if self.from_classes == ALL_CLASSES else self.from_classes or ()
         noise = [value for value in NOISE if value not in given]
+        numbers = counts.classes - counts.reserved
         left_out = ", ".join(
-            f"{counts.classes[value]:,} of class {value}"
-            for value in noise
-            if counts.classes[value]
+            f"{numbers[value]:,} of class {value}" for value in noise if numbers[value]
         )
         if left_out:
             progress.info(f"Noise is left out: {left_out}.")
@@ -322,7 +328,7 @@ class Selection(ParameterSet):
     ) -> np.ndarray:
         """Return which points have one of the classes and are used, among those within if given."""
         if isinstance(classes, str):  # all
-            result = ~is_one_of(cloud.classification, NOISE)
+            result = ~is_one_of(cloud.classification, NOISE) | reserved(cloud)
         else:
             result = is_one_of(cloud.classification, classes)
         result &= used(cloud, self.overlap)

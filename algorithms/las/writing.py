@@ -17,6 +17,7 @@ import numpy as np
 from ..core.errors import BareEarthError
 from ..core.files import replacing
 from ..core.progress import SILENT, Progress
+from ..core.temporary import shown
 from .backends import require
 from .class_layers import ClassLayers, class_layers
 from .cloud import PointCloud
@@ -229,7 +230,8 @@ def _copy_tail(rewriting: EditedFile, file: BinaryIO, *dropped: tuple[str, int])
 
 def _tell_of_waveforms(layout: LasFile, target: Path, progress: Progress) -> None:
     if layout.global_encoding & _EXTERNAL_WAVEFORMS:
+        named = Path(shown(target))  # not that of a temporary file
         progress.warning(
             f"The waveforms are in a file beside the input: copy"
-            f" {layout.path.with_suffix('.wdp').name} to {target.with_suffix('.wdp').name}."
+            f" {layout.path.with_suffix('.wdp').name} to {named.with_suffix('.wdp').name}."
         )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 from collections import Counter
 from dataclasses import dataclass
 from functools import cached_property
@@ -33,6 +34,11 @@ from .vpc import no_extent, read_vpc
 Sources = Union[str, Path, Iterable[Union[str, Path]]]
 _CLOUDS = (".las", ".laz")
 _LISTS = (".txt", ".lst", ".list")
+# Tables that may hold points.
+_TABLES = (
+    ".csv", ".tsv", ".tab", ".xyz", ".pts", ".ptx", ".asc", ".dat", ".xlsx", ".xlsm", ".xls", ".ods"
+)  # fmt: skip
+_NUMBER = re.compile(r"(?<![^\s,;])[-+]?\d+(?:\.\d*)?(?:[eE][-+]?\d+)?(?![^\s,;])")
 
 
 class Inputs(Tuple[Path, ...]):
@@ -223,6 +229,8 @@ def _expand(source: Path, recursive: bool, progress: Progress) -> Iterator[Path]
                     f"{source} lists another list, {path}. List its files instead."
                 )
             if not path.exists():
+                if any(len(_NUMBER.findall(path.name)) > 2 for path in _listed(source)[:10]):
+                    raise _table(source)
                 raise BareEarthError(
                     f"{source} lists {path}, which does not exist. A list has the path of a point"
                     " cloud in each line."
@@ -232,11 +240,20 @@ def _expand(source: Path, recursive: bool, progress: Progress) -> Iterator[Path]
         yield source
     elif not source.exists():
         raise BareEarthError(f"{source} does not exist. Check the path.")
+    elif suffix in _TABLES:
+        raise _table(source)
     else:
         raise BareEarthError(
             f"{source} is neither a point cloud (.las, .laz, .copc.laz) nor a folder, a virtual"
             " point cloud (.vpc) or a list of files (.txt)."
         )
+
+
+def _table(source: Path) -> BareEarthError:
+    return BareEarthError(
+        f"{source} is a table, not a point cloud. Convert its points to LAS, such as with txt2las"
+        " or CloudCompare (a spreadsheet: save it as CSV first)."
+    )
 
 
 def _tell_of_files_elsewhere(source: Path, paths: list[Path], progress: Progress) -> None:

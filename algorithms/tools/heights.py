@@ -108,7 +108,7 @@ class MeasureHeights(PointStep):
             self.dtm.check(part.crs, part.path)
             return Marks(~every, ~every, ~every)
         inside = every if self.area is None else self.area.of(part)
-        roads = self.ground.points_of(part, self.roads)
+        roads = self.ground.roads_of(part, self.roads)
         return Marks(every, self.ground.of(part, counts), inside, {ROADS_FLAG: roads})
 
     def tell(self, counts: GroundCounts, path: Path, progress: Progress) -> None:

@@ -63,6 +63,17 @@ def test_roads_on_the_ground_are_terrain_and_those_above_it_are_not(town, tmp_pa
     assert (heights[flyover:] > BRIDGE - 0.7).all()
 
 
+def test_a_reserved_class_is_no_road(town, tmp_path):
+    las = laspy.read(town / "one.las")
+    flyover = slice(len(las) - 10 * SIDE, None)
+    las.classification[flyover] = 1
+    laspy.convert(las, point_format_id=1).write(tmp_path / "old.las")
+    classify(tmp_path / "old.las", tmp_path / "out.las", **outputs(tmp_path))
+    dtm = heights_of(tmp_path / "dtm.tif")
+    # The crown of the road is no terrain.
+    assert not (dtm[SIDE - 61, :70] - (50.0 + 0.02 * (np.arange(70) + 0.5)) > 0.1).any()
+
+
 @pytest.mark.long
 def test_many_files_give_the_roads_of_one(town, tmp_path):
     for name in ("one", "many"):

@@ -27,6 +27,10 @@ def cloud_of(classes, number=None, total=None, withheld=None, point_format=6, cr
     )  # fmt: skip
 
 
+def with_overlap(classes, flags):
+    return dataclasses.replace(cloud_of(classes), overlap=np.array(flags, bool))
+
+
 def selected_by(selection, cloud, progress, within=None):
     """Return which points take part, and tell of the others, as a run does."""
     PointChooser(selection).choose(cloud, PointCounts())
@@ -45,6 +49,27 @@ def test_only_classes_without_a_further_meaning_take_part_and_roads():
     assert (classes[list(decided)] == 2).all()
     others = np.delete(every, decided)
     assert classes[others].tolist() == others.tolist()
+
+
+@pytest.mark.parametrize("point_format", [0, 3, 5])
+def test_classes_that_old_point_formats_reserve_take_no_part_and_are_told(point_format):
+    heard, cloud = Heard(), cloud_of([1, 2, 10, 11, 11, 18, 7, 9, 12], point_format=point_format)
+    selected = selected_by(Selection(), cloud, heard)
+    assert selected.tolist() == [1, 1, 0, 0, 0, 0, 0, 0, 1]
+    assert heard.infos[:3] == [
+        "Noise is left out: 1 of class 7.",
+        "1 point of class 9 (water) keep their class and do not take part. To classify them too,"
+        " give from_classes='all'.",
+        "1 point of class 10, 2 of class 11, 1 of class 18 keep their class and do not take part:"
+        " point formats 0 to 5 reserve these classes, so what they mean is not known. To classify"
+        " them too, give from_classes='all'.",
+    ]
+    heard = Heard()
+    selected = selected_by(Selection(from_classes="all"), cloud, heard)
+    assert selected.tolist() == [1, 1, 1, 1, 1, 1, 0, 1, 1]
+    heard = Heard()
+    assert selected_by(Selection(seed_classes=(11,)), cloud, heard).sum() == 5
+    assert "2 points of class 11 are known ground." in heard.infos
 
 
 def test_the_log_names_the_classes_that_stay_and_how_to_classify_them():
@@ -87,10 +112,6 @@ def test_another_word_is_no_class():
 def test_the_class_of_the_ground_is_decided_anew():
     cloud = cloud_of([1, 20, 20, 9])
     assert new_classes(Selection(to_class=20), cloud, [1, 1, 0, 0]) == [20, 20, 1, 9]
-
-
-def with_overlap(classes, flags):
-    return dataclasses.replace(cloud_of(classes), overlap=np.array(flags, bool))
 
 
 def test_overlap_is_counted_and_left_out_on_demand():
@@ -168,7 +189,13 @@ def test_no_warning_of_return_numbers_where_all_returns_are_wanted():
     [
         (Selection(), cloud_of([7, 18]), r"classes 7, 18\. Choose the classes"),
         (Selection(from_classes=(2,)), cloud_of([1, 5]), r"has only the classes 1, 5"),
+        (Selection(), cloud_of([9, 9]), r"has only the class 9\. Choose the classes"),
         (Selection(), cloud_of([1, 1], withheld=[1, 1]), "withheld. Clear that flag"),
+        (
+            Selection(overlap="leave-out"),
+            with_overlap([1, 12], [1, 0]),
+            r"All points of in\.las are overlap of strips .* Give overlap='use' to use them",
+        ),
         (Selection(), cloud_of([1], number=[1], total=[2]), "Choose all returns instead"),
         (Selection(), cloud_of([1], crs=Crs(is_geographic=True)), "not in a projected CRS"),
         (Selection(to_class=32), cloud_of([1], point_format=3), "classes up to 31, not 32"),

@@ -180,6 +180,14 @@ def test_waveforms_in_a_file_beside_are_told(las):
     assert any("in.wdp" in text and "out.wdp" in text for text in heard.warnings)
 
 
+def test_waveforms_in_a_file_beside_are_told_with_the_name_of_the_output(las, capsys):
+    from bare_earth.algorithms.cli import main
+
+    source = las.make("in.las", version=3, point_format=4, encoding=0x04)
+    main(["classify", str(source), str(las.folder / "named.las")])
+    assert "copy in.wdp to named.wdp" in capsys.readouterr().err
+
+
 def test_bytes_after_the_points_of_las_stay(las):
     source = las.make(tail=b"whatever this is")
     target = las.folder / "out.las"

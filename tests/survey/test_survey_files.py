@@ -111,10 +111,23 @@ def test_nothing_that_can_be_read_is_an_error(las):
         open_survey([las.folder / "0.las"])
 
 
-def test_a_text_file_that_is_no_list_is_named(tmp_path):
-    path = tmp_path / "points.txt"
-    path.write_text("id E N H\nA 1 2 3\n")
-    with pytest.raises(BareEarthError, match=r"points\.txt lists .*id E N H, which does not exist"):
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [("points.txt", "id E N H\nA 1 2 3\n"), ("points.txt", "500038.22 5500000.26 101.48\n"),
+     ("points.txt", "1,2,3\n"), ("points.lst", "x;y;z\n1,5;2,5;3,5\n"), ("points.csv", "x,y,z\n"),
+     ("cp.xlsx", "PK"), ("points.XYZ", "1 2 3\n")],
+)  # fmt: skip
+def test_a_table_of_points_is_to_be_converted(tmp_path, name, text):
+    path = tmp_path / name
+    path.write_text(text)
+    with pytest.raises(BareEarthError, match=r"is a table, not a point cloud\. Convert its points"):
+        find_files(path)
+
+
+def test_a_list_of_files_that_are_missing_is_no_table(tmp_path):
+    path = tmp_path / "files.txt"
+    path.write_text("tile 500 5500.laz\n568 5931 2.laz\n")
+    with pytest.raises(BareEarthError, match=r"lists .*tile 500 5500\.laz, which does not exist"):
         find_files(path)
 
 

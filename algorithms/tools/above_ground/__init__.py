@@ -80,7 +80,7 @@ class ClassifyAboveGround(PointStep):
         and which of them can change.
         """
         ground = self.ground.of(part, counts)
-        roads = self.ground.points_of(part, ROADS) & ~ground
+        roads = self.ground.roads_of(part, ROADS) & ~ground
         selected = ground | roads | self.ground.points_of(part, DECIDED)
         wanted = selected & ~ground & self.changes(part)
         flags = {ROADS_FLAG: roads, MULTI_RETURN: SeveralReturns(part)}

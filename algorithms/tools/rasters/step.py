@@ -144,7 +144,7 @@ class MakeRasters(Drawing, Sink):
         ground = self.ground.of(part, counts)
         if not self.needs_ground:
             ground = nothing
-        roads = self.ground.points_of(part, self.roads if self.needs_ground else ())
+        roads = self.ground.roads_of(part, self.roads if self.needs_ground else ())
         if self.constraints.any:
             stays = self.constraints.is_ground(part, ground)
             counts.excluded += int(np.count_nonzero(ground & ~stays))
