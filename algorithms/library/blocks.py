@@ -30,6 +30,7 @@ from ..las.opening import open_las
 from ..remote.addresses import shown
 from ..remote.cache import Surroundings, bring_here, cache_of, look
 from ..remote.fetching import Wanted
+from ..survey.area import Area
 from ..survey.files import Inputs, open_survey
 from ..survey.shapes import Outside, Place
 from ..survey.window import may_touch, read_window
@@ -180,7 +181,8 @@ def blocks_of(values: SimpleNamespace, sets: Sequence[ParameterSet]) -> list[Blo
     for name, crs_of_cloud, _, _ in clouds:
         _check_same(name, crs_of_cloud, crs)
     require_measurable("The survey", crs, box)
-    (step,) = placed([step], Place("the files", crs, box), progress)
+    here = Place("the files", crs, box)
+    (step,) = placed([step], here, progress)
     grid = BlockGrid(survey_frame(crs), step, stated)
     inside: dict[BlockIndex, list[_Source]] = {}
     for name, _, box, tile in clouds:
@@ -189,8 +191,7 @@ def blocks_of(values: SimpleNamespace, sets: Sequence[ParameterSet]) -> list[Blo
             inside.setdefault(place, []).append(source)
     wanted = set(inside)
     if values.extent is not None:
-        west, south, east, north = map(float, values.extent)
-        wanted &= {*indices(grid, (west, south, east, north))}
+        wanted &= {*indices(grid, Area(tuple(values.extent)).located(here, progress).bounds)}
         if not wanted:
             raise BareEarthError(
                 "No block lies in the extent. Give the extent in the CRS of the points."

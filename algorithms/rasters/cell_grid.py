@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from typing import ClassVar
 
+from ..core.box_order import in_order, valid_box
 from ..core.errors import BareEarthError
 from ..core.points import Box, Frame, box_in_words
 from ..core.progress import SILENT, Progress
@@ -34,16 +36,18 @@ class RasterTarget:
     # by up to a cell on each side, as their cells stay where they are. It replaces the extent of
     # `like`.
     extent: Box | None = None
+    was_given: ClassVar[bool] = True  # whether the order of its numbers was given so
 
     def __post_init__(self) -> None:
         if self.extent is None:
             return
-        west, south, east, north = box = tuple(map(float, self.extent))
-        if not all(map(math.isfinite, box)) or west >= east or south >= north:
+        box = valid_box(self.extent)
+        if box is None:
             raise BareEarthError(
                 "The extent of the rasters must be smallest x and y, then largest x and y, not"
-                f" {' '.join(f'{end:.10g}' for end in box)}."
+                f" {' '.join(f'{end:.10g}' for end in self.extent)}."
             )
+        object.__setattr__(self, "was_given", box == tuple(map(float, self.extent)))
         object.__setattr__(self, "extent", box)
 
 
@@ -91,7 +95,10 @@ def cell_grid(
         cells = _cells_of(target.like, content, crs.horizontal_unit)
         cells = replace(cells, wkt=_wkt_of(target.like, content.wkt, crs, progress))
     if target.extent is not None:
-        (x, y), (west, south, east, north) = cells.origin, target.extent
+        extent = target.extent
+        if box is not None:
+            extent = in_order(extent, box, target.was_given, progress)
+        (x, y), (west, south, east, north) = cells.origin, extent
         inside = CellWindow.around((west - x, south - y, east - x, north - y), cells.size)
         cells = replace(cells, window=inside)
     if cells.window is not None:

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import cast
+from typing import ClassVar, cast
 
 import numpy as np
 
+from ..core.box_order import in_order, valid_box
 from ..core.errors import BareEarthError
 from ..core.points import Box
 from ..core.progress import SILENT, Progress
@@ -30,18 +31,21 @@ class Area(Geometry):
     # belongs to one of them. If there is a box as well, the area is the part of the polygons in the
     # box. Polygons of a file can be in another CRS until the points are known; see `located`.
     polygons: tuple[Polygon, ...] = ()
+    was_given: ClassVar[bool] = True  # whether the order of the numbers of the box was given so
 
     def __post_init__(self) -> None:
         if self.box is None and not any(map(len, self.polygons)):
             raise BareEarthError("The boundary holds no polygon. Choose one that does.")
         if self.box is not None:
-            west, south, east, north = self.box
-            if not (np.isfinite(self.box).all() and west < east and south < north):
+            box = valid_box(self.box)
+            if box is None:
                 values = " ".join(f"{value:.10g}" for value in self.box)
                 raise BareEarthError(
                     "The extent must be XMIN YMIN XMAX YMAX, XMIN below XMAX and YMIN below YMAX,"
                     f" not {values}."
                 )
+            object.__setattr__(self, "was_given", box == tuple(self.box))
+            object.__setattr__(self, "box", box)
         if not all(np.isfinite(ring).all() for polygon in self.polygons for ring in polygon):
             raise BareEarthError(
                 "A corner of the boundary is not a finite number. Check the boundary and its CRS."
@@ -49,7 +53,10 @@ class Area(Geometry):
 
     def located(self, place: Place, progress: Progress = SILENT) -> Area:
         """Return the area in the CRS of the points."""
-        return Area(self.box, located(self.polygons, "the area", place, progress))
+        box = self.box
+        if box is not None and place.box is not None:
+            box = in_order(box, place.box, self.was_given, progress)
+        return Area(box, located(self.polygons, "the area", place, progress))
 
     @property
     def bounds(self) -> Box:
