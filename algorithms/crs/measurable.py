@@ -5,6 +5,7 @@ from __future__ import annotations
 import functools
 import math
 import re
+from typing import Sequence
 
 from ..core.errors import BareEarthError
 from ..core.points import Box
@@ -15,6 +16,9 @@ from .system import Crs
 # Largest longitude and latitude in degrees; some longitudes are counted from 0 to 360.
 _FARTHEST_EAST = 360.0
 _FARTHEST_NORTH = 90.0
+# Degrees: the largest step of coordinates, about 10 m, and the largest side of a file.
+_DEGREE_STEP = 1e-4
+_MOST_DEGREES = 2.0
 _MERCATOR = re.compile(r"(?:PROJECTION|METHOD)\s*[\[(]\s*\"([^\"]*mercator[^\"]*)\"", re.IGNORECASE)
 _TRUE_ELSEWHERE = ("transverse", "oblique", "hotine", "space")
 # Codes of Web Mercator, for GeoTIFF keys without well-known text.
@@ -49,6 +53,27 @@ def require_measurable(subject: object, crs: Crs, box: Box | None = None) -> Non
             f"{subject} is in a Mercator projection ({crs.name}), in which {wrong}, so that nothing"
             f" can be measured in it. {how_to_reproject()} If this is the wrong CRS, give the right"
             f" one: {how_to_state()}."
+        )
+
+
+def refuse_degrees(
+    subject: object, lowest: Sequence[float], highest: Sequence[float], step: float
+) -> None:
+    """Refuse points without a CRS whose smallest and largest x, y and z look like degrees beside
+    heights, given the step of x and y.
+    """
+    # Local coordinates of a scan have steps of a millimetre or so, begin near 0, and are not higher
+    # than wide if they are as small as this.
+    west, south, low, east, north, high = (*lowest, *highest)
+    box = west, south, east, north
+    side = max(east - west, north - south)
+    if not _can_be_degrees(box) or step > _DEGREE_STEP or side > _MOST_DEGREES:
+        return
+    if high - low > side and max(map(abs, box)) > _MOST_DEGREES:
+        raise BareEarthError(
+            f"{subject} does not say its CRS, and its coordinates look like degrees (x {west:.7g}"
+            f" to {east:.7g}, y {south:.7g} to {north:.7g}), in which nothing can be measured."
+            f" {how_to_reproject()} If they are metres, give the CRS: {how_to_state()}."
         )
 
 

@@ -13,7 +13,7 @@ import numpy as np
 from ..core.points import Box, Frame, Points
 from ..core.progress import SILENT
 from ..core.threads import in_threads, over_parts, parts_of
-from ..crs.measurable import require_measurable
+from ..crs.measurable import refuse_degrees, require_measurable
 from ..crs.system import Crs
 from .lasfile import LasFile
 
@@ -187,6 +187,8 @@ class PointCloud:
 
     def require_projected(self) -> None:
         """Refuse coordinates in which distances cannot be measured, such as degrees."""
+        if self.file is not None and self.crs.wkt is None and self.crs.epsg is None:
+            refuse_degrees(self.path, self.file.minimum, self.file.maximum, min(self.scale[:2]))
         require_measurable(self.path, self.crs, self.file.box if self.file else None)
 
 

@@ -88,3 +88,37 @@ def test_an_extent_that_fits_in_no_order_is_refused(scene, tmp_path):
 )  # fmt: skip
 def test_generous_extents_stay_as_they_are(box):
     assert in_order(box, PLACE, True, SILENT) == box
+
+
+def degrees(path, scale=(1e-7, 1e-7, 0.001), shift=(9.0, 50.5), size=0.002, high=20.0, crs=None):
+    random = np.random.default_rng(1)
+    las = laspy.LasData(laspy.LasHeader(point_format=6, version="1.4"))
+    las.header.scales, las.header.offsets = scale, (*shift, 0.0)
+    x, y = random.uniform(0, size, (2, 3_000))
+    las.x, las.y, las.z = x + shift[0], y + shift[1], 100 + random.uniform(0, high, 3_000)
+    las.return_number[:] = las.number_of_returns[:] = 1
+    if crs:
+        from pyproj import CRS
+
+        las.header.add_crs(CRS(crs))
+    las.write(path)
+    return path
+
+
+@pytest.mark.parametrize("command", ["classify", "terrain"])
+def test_degrees_without_a_crs_are_refused(tmp_path, command):
+    source = degrees(tmp_path / "in.laz")
+    words = ["--dtm", tmp_path / "o.tif"]
+    words = [tmp_path / "o.laz", *words] if command == "classify" else words
+    code, _, told = said(command, source, *words)
+    assert code == 1 and "look like degrees (x 9" in told and "Reproject it first" in told
+
+
+@pytest.mark.parametrize(
+    "how",
+    [{"crs": "EPSG:25832"}, {"scale": (0.001,) * 3}, {"shift": (0.0, 0.0)}, {"size": 30.0}],
+)  # fmt: skip
+def test_local_coordinates_and_stated_ones_are_no_degrees(tmp_path, how):
+    source = degrees(tmp_path / "in.laz", **how)
+    _, _, told = said("classify", source, tmp_path / "o.laz")
+    assert "look like degrees" not in told
