@@ -187,6 +187,8 @@ class PointCloud:
 
     def require_projected(self) -> None:
         """Refuse coordinates in which distances cannot be measured, such as degrees."""
+        if self.file is not None:
+            self.file.check_limits()
         if self.file is not None and self.crs.wkt is None and self.crs.epsg is None:
             refuse_degrees(self.path, self.file.minimum, self.file.maximum, min(self.scale[:2]))
         require_measurable(self.path, self.crs, self.file.box if self.file else None)

@@ -13,6 +13,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import BinaryIO, NamedTuple, Sequence
 
+from ..core.errors import BareEarthError
 from ..core.points import Box
 from . import header as fields
 from .laszip import ChunkHead, Compression
@@ -33,6 +34,8 @@ RECORD_LENGTHS = (20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67)
 # From this point format on, points can have more classes and returns.
 FIRST_EXTENDED_FORMAT = 6
 _WITHOUT_TIMES = (0, 2)
+# Integers of coordinates that are at the limits of 32 bits lie beyond this.
+_INTEGERS = (1 << 31) - 2.5
 # The integers of points have 32 bits. Slightly larger numbers are allowed, since extents are
 # rounded.
 _MOST_STEPS = (1 << 31) + 16
@@ -232,6 +235,18 @@ class LasFile:
         """Return the first VLR or EVLR that has one of the keys."""
         records: tuple[Vlr | Evlr, ...] = (*self.vlrs, *self.evlrs)
         return next((record for record in records if record.key in key), None)
+
+    def check_limits(self) -> None:
+        """Refuse points whose x or y are all cut off at the limit of 32 bits."""
+        for name, low, high, scale, offset in zip(
+            "xy", self.minimum, self.maximum, self.scale, self.offset
+        ):
+            if low == high and abs((low - offset) / scale) > _INTEGERS:
+                raise BareEarthError(
+                    f"{name} of all points of {self.path} is {low:.10g}, the limit of the integers"
+                    " that LAS holds: the program that wrote it cut the coordinates off. Write it"
+                    " again with an offset near the points, or a larger scale."
+                )
 
     def check_unchanged(self) -> None:
         """Refuse a file whose size, time, place on the disk, or bytes before the points have

@@ -80,6 +80,21 @@ class RasterSize(RunSummary):
         return f"{self.columns:,} x {self.rows:,} cells of {self.ground_count:,} ground points"
 
 
+@dataclass
+class Known:
+    """Whether any cell of a raster has a value."""
+
+    any: bool = False
+
+    def seeing(
+        self, make: Callable[..., np.ndarray], nodata: float, *layers: np.ndarray
+    ) -> np.ndarray:
+        """Return rows of a raster, and look for values in them."""
+        rows = make(*layers)
+        self.any = self.any or bool((np.isfinite(rows) & (rows != nodata)).any())
+        return rows
+
+
 def write_rasters(
     blocks: Sequence[BlockRasters],
     frame: Frame,
@@ -108,12 +123,14 @@ def write_rasters(
     windows = None if files is None else _windows_of(files, window, step.cell, frame)
     parts = progress.part(0.3, 1.0).shares(*[1.0] * len(step.files.wanted))
     expected = ExpectedAccuracy()
+    known: dict[str, Known] = {}
     for (name, path), part in zip(step.files.wanted.items(), parts):
         raster = RASTERS[name]
         measured = outlines.canopy() if raster.needs_both else None
         layers = [mosaics[layer].limited(measured, area) for layer in raster.layers]
         told = expected if name == "expected_error" else None
-        write = partial(_write, raster, layers, frame, step, write_cells, told)
+        known[raster.label] = Known(raster.kind == "uint8")  # where 0 is a value as well
+        write = partial(_write, raster, layers, frame, step, write_cells, told, known[raster.label])
         if windows is None:
             write(path, window, part)
             continue
@@ -124,6 +141,12 @@ def write_rasters(
         virtual, grid = virtual_of(path), step.cells.of(window, frame)
         band = Band.of(grid, raster.nodata(step.model.nodata), raster.shows, raster.bands)
         write_virtual(outputs.file(virtual), virtual.parent, grid, grids, raster.kind, band)
+    empty = [label for label, seen in known.items() if not seen.any]
+    if empty:
+        progress.warning(
+            f"No cell has a value: {', '.join(empty)}. The points lie too far apart or in a line."
+            " Check their coordinates and units, and whether y is up in the file."
+        )
     if expected.count:
         progress.info(expected.text)
     ground, top = np.sum([block.counts for block in blocks], axis=0).tolist()
@@ -137,6 +160,7 @@ def _write(
     step: Drawing,
     write_cells: WriteCells,
     expected: ExpectedAccuracy | None,
+    known: Known,
     path: Path,
     window: CellWindow,
     progress: Progress,
@@ -147,6 +171,7 @@ def _write(
     make = partial(raster.rows, how=how, unit=frame.vertical_unit, nodata=nodata)
     if expected is not None:
         make = partial(_telling, make, expected, step.model.error_factor)
+    make = partial(known.seeing, make, nodata)
     strips = gathered_strips(layers, window, make, raster.margin(how), progress)
     rows = Rows(window.shape, raster.kind, strips, raster.bands)
     write_cells(path, rows, grid, nodata, progress, raster.shows)

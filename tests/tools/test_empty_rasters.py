@@ -1,0 +1,48 @@
+"""Rasters without any value, and points from which none can be made."""
+
+import laspy
+import numpy as np
+import pytest
+from runs import said
+from surveys import heights_of, write_points
+
+
+@pytest.fixture(scope="module")
+def on_a_line(tmp_path_factory):
+    x, path = np.arange(100.0), tmp_path_factory.mktemp("line") / "in.laz"
+    place = 500_000.0, 5_500_000.0, 0.0
+    return write_points(path, x, np.full(100, 0.5), 50 + 0.1 * x, 2, offset=place)
+
+
+def test_a_terrain_model_without_any_value_is_told(on_a_line, tmp_path):
+    code, _, told = said("terrain", on_a_line, "--dtm", tmp_path / "o.tif")
+    assert code == 0 and np.isnan(heights_of(tmp_path / "o.tif")).all()
+    assert "No cell has a value: Terrain model (DTM)." in told
+
+
+def test_a_raster_with_a_value_is_not_told(tmp_path):
+    x, y = (axis.ravel() for axis in np.meshgrid(np.arange(20.0), np.arange(20.0)))
+    source = write_points(
+        tmp_path / "in.laz", x, y, 50 + x, 2, offset=(500_000.0, 5_500_000.0, 0.0)
+    )
+    words = ["--dtm", tmp_path / "o.tif", "--slope", tmp_path / "s.tif"]
+    assert "No cell has a value" not in said("terrain", source, *words)[2]
+
+
+def test_y_that_is_up_is_told(tmp_path):
+    x, z = np.random.default_rng(1).uniform(0, 60, (2, 4_000))
+    source = write_points(tmp_path / "in.laz", x, 100 + 0.1 * x, z, 1)
+    code, _, told = said("classify", source, tmp_path / "o.laz", "--dtm", tmp_path / "o.tif")
+    assert code == 0 and "whether y is up" in told
+
+
+@pytest.mark.parametrize("axis", ["X", "Y"])
+@pytest.mark.parametrize("value", [-(2**31), 2**31 - 1])
+def test_coordinates_that_were_cut_off_are_refused(tmp_path, axis, value):
+    x, y = np.random.default_rng(1).uniform(0, 60, (2, 4_000))
+    source = write_points(tmp_path / "in.laz", x, y, 100 + 0.1 * x, 1)
+    las = laspy.read(source)
+    las[axis] = np.full(len(las), value, np.int32)
+    las.write(source)
+    code, _, told = said("classify", source, tmp_path / "o.laz", "--dtm", tmp_path / "o.tif")
+    assert code == 1 and f"{axis.lower()} of all points of" in told and "limit of the integ" in told
