@@ -132,3 +132,25 @@ def test_the_command_without_a_terrain_model_or_causes(rasters, tmp_path, capsys
     assert len(content["features"]) == told["place_count"] > 0
     assert content["features"][0]["properties"]["LOW"] is None
     assert "Without a terrain model" in page.read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("least", [0.5, None])
+def test_last_bits_of_errors_decide_nothing(least):
+    # Two places of equal weight, each of two causes of equal weight, and many cells at the limit,
+    # which is that of the user or the error that 95 of 100 cells do not exceed.
+    error = np.full((40, 40), 0.2, np.float32)
+    error[12:18] = error[28:] = 0.5
+    error[2:8, 2:8] = error[20:26, 20:26] = 0.9
+    cause = np.where(np.arange(40) % 2 == 0, 2, 3) * np.ones((40, 1))
+    how, units = Review(least_error=least), Units(1.0, 1.0)
+
+    def found(values):
+        rasters = Rasters(values.astype(np.float32), None, cause, 1.0)
+        places, _ = places_of(rasters, how, how.limit(rasters.error), units)
+        return [(place.worst, place.reason, int(place.cells.sum())) for place in places]
+
+    expected = found(error)
+    assert [place[0] for place in expected] == [(2, 2), (20, 20)]
+    for seed in range(5):
+        random = np.random.default_rng(seed)
+        assert found(error * (1.0 + random.uniform(-2e-7, 2e-7, error.shape))) == expected

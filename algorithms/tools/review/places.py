@@ -20,6 +20,8 @@ _WIDEST = 100.0
 # no limit.
 _USUAL = 0.95
 _LEAST = 0.3
+# Errors and weights that differ by this share are equal: last bits depend on the processor.
+_SAME = 1e-6
 # Of a place beside cells without a value.
 _BORDER = "beside water or the border of the survey"
 # By the piece of evidence with the largest share in the expected error; {rise} is the difference
@@ -70,10 +72,11 @@ class Review(ParameterSet):
     )
 
     def limit(self, error: np.ndarray) -> float:
-        """Return the least expected error in metres, given those of all cells."""
-        if self.least_error is not None:
-            return self.least_error
-        return max(float(np.nanquantile(error, _USUAL)), _LEAST)
+        """Return what expected errors of places exceed, in metres, given those of all cells."""
+        least = self.least_error
+        if least is None:
+            least = max(float(np.nanquantile(error, _USUAL)), _LEAST)
+        return least * (1.0 + _SAME)  # many cells may have that very value
 
 
 class Rasters(NamedTuple):
@@ -119,7 +122,7 @@ def places_of(
             found.append(_place(rasters, window, cells, units))
         else:
             small += 1
-    return sorted(found, key=lambda place: (-place.weight, place.worst)), small
+    return sorted(found, key=lambda place: (-float(f"{place.weight:.6g}"), place.worst)), small
 
 
 def _regions(rasters: Rasters, least: float) -> Iterator[tuple[tuple[slice, slice], np.ndarray]]:
@@ -145,7 +148,7 @@ def _place(
 ) -> PlaceToReview:
     """Return a place with its figures and the reason."""
     errors = np.where(cells, rasters.error[window], 0.0).astype(np.float64)
-    row, column = np.unravel_index(errors.argmax(), errors.shape)
+    row, column = np.unravel_index(_first_of_largest(errors), errors.shape)
     low = high = math.nan
     if rasters.terrain is not None:
         heights = rasters.terrain[window][cells]
@@ -165,6 +168,11 @@ def _place(
     )
 
 
+def _first_of_largest(values: np.ndarray) -> int:
+    """Return the place of the first of the values that are the largest but for their last bits."""
+    return int(np.argmax(values.ravel() >= values.max() * (1.0 - _SAME)))
+
+
 def _reason(
     rasters: Rasters,
     window: tuple[slice, slice],
@@ -180,7 +188,7 @@ def _reason(
     if rasters.cause is not None:
         causes = np.where(cells, rasters.cause[window], 0).astype(np.intp)
         shares = np.bincount(causes.ravel(), errors.ravel())
-        number = int(shares.argmax())
+        number = _first_of_largest(shares)
         if number:
             words = _REASONS[Evidence._fields[number - 1]]
     if math.isnan(rise):
