@@ -1,5 +1,5 @@
 # The set-up is all in tools/environment: it makes what is missing, below build/.
-.PHONY: help demo test test-core test-long test-systems lint test-qgis coverage docs translations package clean
+.PHONY: help demo test test-all test-core test-long test-systems lint test-qgis coverage docs translations package clean
 
 help:  ## list the targets
 	@sed -n 's/^\([a-z-]*\):.*## /  \1\t/p' Makefile | expand -t 14
@@ -10,13 +10,16 @@ demo:  ## classify LAS=tile.laz (TRUTH=reference.laz), LAND=mountain, campus or 
 test:  ## run all that follows, installing a QGIS if there is none
 	@tools/test core lint qgis
 
+test-all:  ## run all that there is: what `test` runs, long tests, and test-systems
+	@tools/test core long windows oldest lint qgis
+
 test-core:  ## test the classifier, without QGIS
 	@tools/test core
 
 test-long:  ## run the tests that test-core leaves out, for they take long
 	@tools/test long
 
-test-systems:  ## test what touches files once more as on Windows, and in Python 3.9, if there is one, what can differ
+test-systems:  ## test what touches files once more as on Windows, and in Python 3.9 with the oldest NumPy and SciPy, if there is one, what can differ
 	@tools/test windows oldest
 
 lint:  ## check the style, the types, and what plugins.qgis.org checks

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Iterator
 
 from .digests import Digests
+from .numbers import difference
 
 ROOT = Path(__file__).parents[2]
 AGREED, AGREED_IN_QGIS = ROOT / "tests/project/goldens.json", ROOT / "tests/qgis/goldens.json"
@@ -31,8 +32,21 @@ def differences(agreed: Digests, found: Digests) -> Iterator[str]:
             yield f"missing  {name}"
         elif name not in agreed:
             yield f"new      {name}"
-        elif agreed[name] != found[name]:
-            before = agreed[name].split(", ")
-            parts = [part for part in found[name].split(", ") if part not in before]
-            names = ", ".join(part.split()[0] for part in parts if " " in part)
-            yield f"changed  {name}: {names}" if names else f"changed  {name}"
+        else:
+            parts = [*_changed(_parts(agreed[name]), _parts(found[name]))]
+            if parts:
+                yield f"changed  {name}: {', '.join(filter(None, parts))}".rstrip(": ")
+
+
+def _changed(agreed: dict[str, str], found: dict[str, str]) -> Iterator[str]:
+    """Yield the name of each part that is not as agreed, and what differs."""
+    for part in [*found, *(part for part in agreed if part not in found)]:
+        wrong = difference(agreed.get(part, ""), found.get(part, ""))
+        if wrong is not None:
+            yield f"{part} ({wrong})".lstrip() if wrong else part
+
+
+def _parts(digest: str) -> dict[str, str]:
+    """Return the parts of a digest by their names; what has no parts has one without a name."""
+    named = [part if " " in part else f" {part}" for part in digest.split(", ")]
+    return dict(part.split(" ", 1) for part in named)

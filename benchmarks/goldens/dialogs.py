@@ -14,7 +14,7 @@ import sys
 from pathlib import Path
 from typing import Any
 
-from .digests import Digests, of_text
+from .digests import Digests, of_fixed_text, of_text
 from .inputs import write_inputs
 from .running import of_folder, working_in
 
@@ -130,7 +130,7 @@ def of_dialogs(folder: Path) -> Digests:
 
     write_inputs(folder)
     algorithms = QgsApplication.processingRegistry().providerById("bareearth").algorithms()
-    found = {f"dialogs/{one.name()}": of_text(_dialog(one), folder) for one in algorithms}
+    found = {f"dialogs/{one.name()}": of_fixed_text(_dialog(one), folder) for one in algorithms}
     with working_in(folder):
         for name in RUNS:
             found.update(_of_run(name, folder))

@@ -1,34 +1,40 @@
-"""Digests of what tools write: what a user sees, without dates, paths and how libraries pack it."""
+"""Digests of what tools write: what a user sees, without dates, paths and how libraries pack it.
+
+Labels, words and bytes count exactly, measured numbers as `numbers` keeps them.
+"""
 
 from __future__ import annotations
 
 import base64
-import contextlib
-import hashlib
 import html
 import json
 import re
-import sqlite3
 import struct
 import zlib
 from pathlib import Path
-from typing import Dict, Iterable, Iterator
+from typing import Any, Dict
 
 import numpy as np
 
 from bare_earth import __version__
 
+from . import numbers
+from .features import of_json, of_layers
+
 # Of each output, "tool/case/output", the digests of its parts.
 Digests = Dict[str, str]
 
-# Heights and shares are compared to a thousandth. Sums that are rounded otherwise by another
-# processor must not matter, and halves are frequent in means of few numbers, so that the borders
-# between two steps lie at no simple fraction.
-_STEP, _SHIFT = 1e-3, 0.3183
-# Records of LAZ and COPC, which say where in the file something is.
+# Records of LAZ and COPC, which say where in the file something is. Old laspy names some of these
+# only by their class.
 _PACKING = {("laszip encoded", 22204), ("copc", 1), ("copc", 1000)}
+_PACKING_CLASSES = ("CopcInfoVlr", "CopcHierarchyVlr")
+# What LAS 1.4 says of the columns that a producer added, in 192 bytes each.
+_COLUMNS, _COLUMN, _FLOATING = ("LASF_Spec", 4), 192, (9, 10)
 _APART = ("X", "Y", "Z", "classification")
-_LETTERS = 8
+# Floating columns that are copied.
+_COPIED = {"gps_time", "reflectance"}
+# Rasters of small integers that are no labels.
+_PICTURES = re.compile("Brightness|Red relief|Archaeological topography")
 
 _PATTERNS = tuple(
     (re.compile(pattern), replacement)
@@ -45,8 +51,6 @@ _PATTERNS = tuple(
 _VERSION = re.compile(rf"(?<![\d.]){re.escape(__version__)}(?![\d.])")
 _PNG = re.compile(r"data:image/png;base64,([A-Za-z0-9+/=]+)")
 _MARKS = re.compile(r"<(style|script).*?</\1>|<[^>]*>", re.DOTALL)
-# What JSON says of this run, and not of its result.
-_OF_THE_RUN = {"jobs", "seconds", "memory"}
 
 
 def digest(path: Path, folder: Path) -> str:
@@ -65,106 +69,144 @@ def digest(path: Path, folder: Path) -> str:
     elif kind in (".tif", ".tiff"):
         parts = _of_raster(path)
     elif kind in (".json", ".geojson", ".vpc"):
-        parts = {"": _of_json(path.read_text(encoding="utf-8"), folder)}
+        parts = of_json(json.loads(plain(path.read_text(encoding="utf-8"), folder)))
     elif kind == ".gpkg":
-        parts = _of_layers(path)
+        parts = of_layers(path)
     elif kind == ".html":
         parts = _of_page(path.read_text(encoding="utf-8"), folder)
     else:
-        parts = {"": of_text(path.read_text(encoding="utf-8"), folder)}
-    return ", ".join(f"{name} {value}".strip() for name, value in parts.items())
+        return of_text(path.read_text(encoding="utf-8"), folder)
+    return _joined(parts)
 
 
 def of_text(text: str, folder: Path) -> str:
-    """Return the digest of a text, or of JSON."""
+    """Return the digest of a text, or of JSON, that may hold measured numbers."""
     if text.startswith(("{", "[")) and text.count("\n") <= 1:
-        return _of_json(text, folder)
-    return _short([plain(text, folder).encode()])
+        return _joined(of_json(json.loads(plain(text, folder))))
+    words, found = numbers.without_decimals(plain(text, folder))
+    return _joined({"": numbers.exactly([words.encode()]), "numbers": numbers.printed(found)})
+
+
+def of_fixed_text(text: str, folder: Path) -> str:
+    """Return the digest of a text in which nothing is measured, such as help."""
+    return numbers.exactly([plain(text, folder).encode()])
+
+
+def _joined(parts: dict[str, str]) -> str:
+    return ", ".join(f"{name} {value}".strip() for name, value in parts.items() if value)
 
 
 def plain(text: str, folder: Path) -> str:
     """Return a text without what differs from run to run: dates, paths, versions, seconds."""
     for place in {str(folder), folder.as_posix(), str(folder.resolve())}:
         text = text.replace(place, "FOLDER")
-    text = _PNG.sub(lambda found: _of_png(found[1]), _VERSION.sub("VERSION", text))
+    text = _PNG.sub("PICTURE", _VERSION.sub("VERSION", text))
     for pattern, replacement in _PATTERNS:
         text = pattern.sub(replacement, text)
     return text
 
 
-def _short(parts: Iterable[bytes]) -> str:
-    found = hashlib.sha256()
-    for part in parts:
-        found.update(part)
-    return found.hexdigest()[:_LETTERS]
-
-
 def _of_page(text: str, folder: Path) -> dict[str, str]:
     """Return digests of what a page says, of its pictures, and of all of it with its marks."""
-    pictures = [_of_png(letters) for letters in _PNG.findall(text)]
-    words = html.unescape(_MARKS.sub(" ", plain(text, folder)))
+    shown = plain(text, folder)
+    said = " ".join(html.unescape(_MARKS.sub(" ", shown)).split())
+    words, found = numbers.without_decimals(said)
+    marks, drawn = numbers.without_decimals(shown)
+    places = numbers.in_last_places(drawn)
     return {
-        "words": _short([" ".join(words.split()).encode()]),
-        "pictures": _short(picture.encode() for picture in pictures),
-        "marks": of_text(text, folder),
+        "words": numbers.exactly([words.encode()]),
+        "numbers": numbers.printed(found),
+        **{f"picture-{n}": _of_png(png) for n, png in enumerate(_PNG.findall(text), start=1)},
+        "marks": numbers.exactly([marks.encode()]),
+        "drawn": numbers.in_groups(places, numbers.COORDINATES, 1.0),
     }
 
 
 def _of_png(letters: str) -> str:
-    """Return the digest of the pixels of a picture, which libraries compress in different ways."""
+    """Return the sums of the pixels of a picture, which libraries compress in different ways.
+
+    The pages have pictures of 8 bits a channel, whose rows are not filtered.
+    """
     data, cells, start = base64.b64decode(letters), b"", 8
     while start < len(data):
         (length,), name = struct.unpack_from(">I", data, start), data[start + 4 : start + 8]
         cells += data[start + 8 : start + 8 + length] if name == b"IDAT" else b""
         start += length + 12
-    return _short([data[16:29], zlib.decompress(cells)])
+    height = struct.unpack_from(">I", data, 20)[0]
+    rows = np.frombuffer(zlib.decompress(cells), np.uint8).reshape(height, -1)
+    return numbers.in_squares(rows, numbers.PIXELS * 3, numbers.SHADE)
 
 
 def _of_cloud(path: Path) -> dict[str, str]:
     import laspy
 
     las = laspy.read(path)
-    header = las.header
-    records = [*header.vlrs, *(header.evlrs or [])]
+    names = [name for name in las.point_format.dimension_names if name not in _APART]
+    measured = [n for n in names if n not in _COPIED and np.asarray(las[n]).dtype.kind == "f"]
+    header, extremes = _of_header(las.header)
+    return {
+        "places": _of_columns(las, ["X", "Y", "Z"]),
+        "classes": _of_columns(las, ["classification"]),
+        "others": _of_columns(las, [name for name in names if name not in measured]),
+        **{name: numbers.in_groups(las[name], numbers.POINTS, numbers.STEP) for name in measured},
+        "header": header,
+        "extremes": numbers.rounded(extremes),
+    }
+
+
+def _of_columns(las: Any, names: list[str]) -> str:
+    return numbers.exactly(
+        name.encode() + np.ascontiguousarray(las[name]).tobytes() for name in names
+    )
+
+
+def _of_header(header: Any) -> tuple[str, list[float]]:
+    """Return the digest of a header, and the extremes of floating columns in it."""
     about = [
         header.version, header.point_format, header.uuid, header.creation_date,
         header.system_identifier, header.global_encoding.value, *header.scales, *header.offsets,
         *header.mins, *header.maxs, header.point_count, *header.number_of_points_by_return,
     ]  # fmt: skip
-    told = [repr([str(value) for value in about]).encode()]
-    for record in records:
-        if (record.user_id, record.record_id) not in _PACKING:
-            told += [f"{record.user_id} {record.record_id}".encode(), record.record_data_bytes()]
-    names = [name for name in las.point_format.dimension_names if name not in _APART]
-    return {
-        "places": _short(np.ascontiguousarray(las[name]).tobytes() for name in "XYZ"),
-        "classes": _short([np.ascontiguousarray(las.classification).tobytes()]),
-        "others": _short(part for name in names for part in _of_column(name, las[name])),
-        "header": _short(told),
-    }
+    told, extremes = [repr([str(value) for value in about]).encode()], []
+    for record in [*header.vlrs, *(header.evlrs or [])]:
+        if type(record).__name__ in _PACKING_CLASSES:
+            continue
+        key, data = (record.user_id, record.record_id), bytearray(record.record_data_bytes())
+        if key == _COLUMNS:
+            for start in range(0, len(data), _COLUMN):
+                extremes += _extremes(data, start)
+        if key not in _PACKING:
+            told += [f"{key[0]} {key[1]}".encode(), bytes(data)]
+    return numbers.exactly(told), extremes
 
 
-def _of_column(name: str, values: object) -> Iterator[bytes]:
-    column = np.ascontiguousarray(values)
-    yield name.encode()
-    yield (column if column.dtype.kind in "iu" else _steps(column)).tobytes()
+def _extremes(data: bytearray, start: int) -> list[float]:
+    """Return the extremes of a floating column that is measured, and blank those of all floating
+    ones in the record of columns: for copied ones, versions of laspy write others in the input.
+    """
+    if data[start + 2] not in _FLOATING:
+        return []
+    found = [struct.unpack_from("<d", data, start + place)[0] for place in (64, 88)]
+    data[start + 64 : start + 112] = bytes(48)
+    if data[start + 4 : start + 36].rstrip(b"\0").decode() not in _COPIED:
+        return found
+    data[start + 3] = 0  # says whether there are extremes
+    return []
 
 
 def _of_raster(path: Path) -> dict[str, str]:
     about, bands = _read_raster(path)
-    kept = [band if band.dtype == np.uint8 else _steps(band) for band in bands]
+    side, step = numbers.CELLS, numbers.STEP
+    if bands[0].dtype.kind in "iu":
+        if not _PICTURES.search(repr(about)):
+            cells = {"labels": numbers.exactly(band.tobytes() for band in bands)}
+            return {**cells, "about": numbers.exactly([plain(repr(about), path.parent).encode()])}
+        side, step = numbers.PIXELS, numbers.SHADE
+    names = ["cells"] if len(bands) == 1 else [f"band-{n}" for n in range(1, len(bands) + 1)]
     return {
-        "cells": _short(band.tobytes() for band in kept),
-        "about": _short([plain(repr(about), path.parent).encode()]),
+        **{name: numbers.in_squares(band, side, step) for name, band in zip(names, bands)},
+        "about": numbers.exactly([plain(repr(about), path.parent).encode()]),
     }
-
-
-def _steps(values: np.ndarray) -> np.ndarray:
-    """Return numbers rounded to steps, as integers; NaN and no data have one of their own."""
-    far = ~(np.abs(values) < 1e9)
-    return np.where(far, -(2**62), np.floor(np.where(far, 0.0, values) / _STEP + _SHIFT)).astype(
-        "<i8"
-    )
 
 
 def _read_raster(path: Path) -> tuple[list[object], list[np.ndarray]]:
@@ -204,79 +246,3 @@ def _read_by_gdal(path: Path) -> tuple[list[object], list[np.ndarray]]:
 def _name_of_crs(wkt: str) -> str:
     """Return the first name in a WKT, which all versions of PROJ write alike."""
     return next(iter(re.findall(r'"([^"]*)"', wkt)), "")
-
-
-def _of_json(text: str, folder: Path) -> str:
-    found = json.loads(plain(text, folder))
-    return _short([json.dumps(_rounded(found), sort_keys=True).encode()])
-
-
-def _rounded(value: object) -> object:
-    """Return JSON with rounded numbers, without what is of the run, and features in one order."""
-    if isinstance(value, dict):
-        found = {name: _rounded(item) for name, item in value.items() if name not in _OF_THE_RUN}
-        if isinstance(found.get("features"), list):
-            found["features"] = sorted(found["features"], key=json.dumps)
-        return found
-    if isinstance(value, list):
-        return [_rounded(item) for item in value]
-    return _rounded_number(value) if isinstance(value, float) else value
-
-
-def _rounded_number(value: float) -> object:
-    """Return in which step a number lies: of a thousandth, or of small ones so much finer."""
-    if not abs(value) < 1e15:
-        return str(value)
-    step = _STEP if abs(value) >= 1.0 else 10.0 ** (np.floor(np.log10(max(abs(value), 1e-9))) - 4)
-    return int(np.floor(value / step + _SHIFT))
-
-
-def _of_layers(path: Path) -> dict[str, str]:
-    """Return the digest of each layer of a GeoPackage, its features in one order."""
-    found = {}
-    with contextlib.closing(sqlite3.connect(path)) as base:
-        layers = base.execute(
-            "SELECT table_name, column_name, srs_id, geometry_type_name FROM gpkg_geometry_columns"
-        )
-        for layer, column, *about in layers.fetchall():
-            rows = base.execute(f'SELECT * FROM "{layer}"')
-            names = [name for name, *_ in rows.description]
-            features = [dict(zip(names, row)) for row in rows]
-            for feature in features:
-                feature.pop("fid", None)
-                feature[column] = _places(feature[column])
-            words = sorted(json.dumps(_rounded(feature), sort_keys=True) for feature in features)
-            found[layer] = _short(word.encode() for word in (repr(about), *words))
-    return found
-
-
-def _places(blob: bytes) -> list[object]:
-    """Return the types and coordinates of a geometry of a GeoPackage, as one list."""
-    envelope = (0, 32, 48, 48, 64)[blob[3] >> 1 & 7]
-    data, found, start = blob[8 + envelope :], [], 0
-
-    def geometry(start: int) -> int:
-        (kind,) = struct.unpack_from("<I", data, start + 1)
-        kind, depth = kind % 1000 & 0xFF, 3 if kind >= 1000 or kind & 0x80000000 else 2
-        found.append(kind)
-        start += 5
-        if kind == 1:
-            return points(start, 1, depth)
-        (count,) = struct.unpack_from("<I", data, start)
-        start += 4
-        if kind == 2:
-            return points(start, count, depth)
-        for _ in range(count):
-            if kind == 3:
-                (length,) = struct.unpack_from("<I", data, start)
-                start = points(start + 4, length, depth)
-            else:
-                start = geometry(start)
-        return start
-
-    def points(start: int, count: int, depth: int) -> int:
-        found.extend(struct.unpack_from(f"<{count * depth}d", data, start))
-        return start + 8 * count * depth
-
-    geometry(start)
-    return found

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import struct
 from datetime import date
 from pathlib import Path
 
@@ -18,7 +19,7 @@ from demo.scene import las_of
 
 # On the border of two blocks, so that one file has a seam, too; four would take twice the time.
 MIDDLE = (570_000.0, 5_932_500.0)
-_SEED, _SIZE, _STRIP_TWO = 5, 84.0, 0.02
+_SEED, _SIZE, _STRIP_TWO, _DAY = 5, 84.0, 0.02, date(2024, 5, 6)
 # Metres from the middle: what is drawn by hand.
 _POND, _POND_RADIUS = (24.0, -22.0), 14.0
 _SHAPES = {
@@ -69,7 +70,7 @@ def write_inputs(folder: Path) -> None:
     # Classes with a meaning stay, so some are there from the start.
     raw.classification = np.where(np.arange(len(raw.points)) % 97 == 0, 12, 1).astype(np.uint8)
     for name, las in (("raw", raw), ("truth", truth)):
-        las.write(folder / f"{name}.laz")
+        _write(las, folder / f"{name}.laz")
         _write_cut(folder / name, las)
     _write_old(folder / "old.las", truth)
     _write_drawn(folder)
@@ -81,7 +82,7 @@ def _las(scene: Scene) -> laspy.LasData:
     las = las_of(scene)
     header = las.header
     header.offsets = np.array([*(middle - _SIZE / 2 for middle in MIDDLE), 0.0])
-    header.creation_date = date(2024, 5, 6)
+    header.creation_date = _DAY
     header.vlrs.append(laspy.VLR("golden", 7, "must stay", b"any bytes \x00\xff"))
     random = np.random.default_rng(_SEED)
     las = laspy.LasData(header, las.points)
@@ -104,7 +105,7 @@ def _write_cut(folder: Path, las: laspy.LasData) -> None:
     for name, which in (
         ("sw", ~east & ~north), ("se", east & ~north), ("nw", ~east & north), ("ne", east & north),
     ):  # fmt: skip
-        laspy.LasData(las.header, las.points[which].copy()).write(folder / f"{name}.laz")
+        _write(laspy.LasData(las.header, las.points[which].copy()), folder / f"{name}.laz")
 
 
 def _write_old(path: Path, truth: laspy.LasData) -> None:
@@ -119,7 +120,17 @@ def _write_old(path: Path, truth: laspy.LasData) -> None:
     las.return_number = np.minimum(truth.return_number, 7)
     las.number_of_returns = np.minimum(truth.number_of_returns, 7)
     las.gps_time, las.intensity = truth.gps_time, truth.intensity
+    _write(las, path)
+
+
+def _write(las: laspy.LasData, path: Path) -> None:
+    """Write a file with the date of its header, in place of which old versions of laspy put that
+    of today.
+    """
     las.write(path)
+    with path.open("r+b") as file:
+        file.seek(90)
+        file.write(struct.pack("<HH", _DAY.timetuple().tm_yday, _DAY.year))
 
 
 def _write_drawn(folder: Path) -> None:

@@ -18,7 +18,7 @@ from bare_earth.algorithms import cli
 from bare_earth.algorithms.engine import workers
 
 from .commands import COMMANDS
-from .digests import Digests, digest, of_text
+from .digests import Digests, digest, of_fixed_text, of_text
 from .functions import FUNCTIONS
 from .inputs import write_inputs
 
@@ -99,7 +99,7 @@ def _of_help(folder: Path) -> Digests:
         text = said_by([name, *words, "--help"])[1].partition("\n\n")[2]
         text = text.replace("optional arguments:", "options:")
         text = re.sub(r" \(default: (True|False)\)", "", " ".join(text.split()))
-        found["/".join(["help", name, *words[1:]])] = of_text(text, folder)
+        found["/".join(["help", name, *words[1:]])] = of_fixed_text(text, folder)
     return found
 
 
