@@ -226,7 +226,7 @@ class _Smoothing(NamedTuple):
         ring = min(how.contour_min_length, _WIDEST) if how.contour_knolls else 0.0
         sigma, little, wide = (
             (size / cells[0], size / cells[1])
-            for size in (metres, _LITTLE * metres, ring / (2 * math.pi))
+            for size in (metres, _LITTLE * metres, ring / math.pi)
         )
         # A ring that ends in a strip lies in the rows of it, and in some before.
         reach = max(reach_of(sigma[0]), 3 * _half(sigma)) if _smooths(sigma) else 0

@@ -167,6 +167,8 @@ class ShippedModel(QgsProcessingModelAlgorithm):
             do_not_load(context, extra)
             looks = layers.looks_of(context)
         if context.willLoadLayerOnCompletion(paths.get(_LINES, "")):
+            # They are made of a raster that may be temporary: what made them is the model.
+            looks[paths[_LINES]] = looks[paths[_LINES]]._replace(origin=None)
             # The terrain must be visible below its contour lines.
             for path in {*extra, paths.get(_CLASSIFIED, "")} & set(looks):
                 looks[path] = looks[path]._replace(hides=layers.BELOW_TERRAIN)

@@ -18,7 +18,7 @@ CASES = [
     ("bareearth:gridminimum", "EXPLANATION", "rules.txt"),
     (WHOLE, "OUTPUT", "ground.txt"),
     (WHOLE, "RELIEF", "missing/relief.tif"),
-    (WHOLE, "CONTOURS", "contours.dxf"),
+    (WHOLE, "CONTOURS", "contours.kml"),
     (WHOLE, "CONTOURS", "missing/contours.gpkg"),
     ("bareearth:classifytiles", "OUTPUT_VPC", "list.txt"),
     ("bareearth:classifytiles", "OUTPUT_FOLDER", "missing/deep"),
@@ -78,7 +78,7 @@ def test_file_dialogs_offer_what_can_be_written(registry):
     offered = algorithm.parameterDefinition("CONTOURS").createFileFilter()
     kinds = [word for word in offered.split(";;") if "*.*" not in word]
     assert [kind.partition("(")[2] for kind in kinds] == [
-        "*.gpkg)", "*.geojson)", "*.shp)", "*.fgb)",
+        "*.gpkg)", "*.geojson)", "*.shp)", "*.fgb)", "*.dxf)",
     ]  # fmt: skip
     for name in ("terrainmodel", "heightaboveground", "comparesettings"):
         field = registry.createAlgorithmById(f"bareearth:{name}").parameterDefinition("INPUT")
@@ -113,7 +113,7 @@ def test_what_has_always_a_value_is_not_called_optional(registry, context):
     [
         ("ground:DTM", "missing/dtm.tif"),
         ("ground:OUTPUT", "missing/ground.laz"),
-        ("contours:OUTPUT", "lines.dxf"),
+        ("contours:OUTPUT", "lines.kml"),
     ],
 )
 def test_models_refuse_outputs_too(output, file, registry, tmp_path, context):

@@ -146,7 +146,8 @@ def test_rasters(labelled, out):
     inside = np.s_[2:-2, 2:-2]
     assert np.allclose(dtm[inside], terrain[inside], atol=0.01)
     assert dsm.max() == 112.0 and shade.max() > 0
-    assert np.allclose(chm[inside], np.maximum(dsm - dtm, 0)[inside], atol=1e-4)
+    # The surface is the highest point of a cell of 1 m, on a slope of 5 % and a level roof.
+    assert np.allclose(chm[inside], np.maximum(dsm - dtm, 0)[inside], atol=0.06)
     assert "25832" in rasters["CHM"].GetProjection()
     assert results["SURFACE_COUNT"] == labelled.count
 

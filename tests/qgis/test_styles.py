@@ -309,7 +309,8 @@ def test_the_legend_of_contour_lines_says_the_unit(run, tmp_path):
     outputs = {name.partition(".")[0]: path for name, path in outputs.items()}
     values = {"INPUT": str(tmp_path / "feet.las"), "CONTOUR_INTERVAL": 2.5}
     run("bareearth:pointcloudtoterrain", values, outputs)
-    assert legend_of("Contour lines") == ["Every 12.5 US survey ft", "Every 2.5 US survey ft"]
+    every = ["Every 12.5 US survey ft", "Every 2.5 US survey ft"]
+    assert legend_of("Contour lines") == [*every, "Depression"]
 
 
 def test_every_fifth_contour_line_has_its_height_as_a_label(run, tmp_path):
