@@ -62,7 +62,7 @@ def test_contour_lines_load_with_index_lines_and_ticks(tmp_path, ending):
     }  # fmt: skip
     processing.runAndLoadResults("bareearth:contours", values)
     loaded = QgsProject.instance().mapLayers().values()
-    (layer,) = (layer for layer in loaded if layer.source() == values["OUTPUT"])
+    (layer,) = (layer for layer in loaded if str(tmp_path) in layer.source())
     assert layer.name() == "dtm: Contour lines"
     rules = layer.renderer().rootRule().children()
     assert [rule.label() for rule in rules] == ["Every 2.5 m", "Every 0.5 m", "Depression"]
