@@ -124,6 +124,13 @@ def named(layout: LasFile, records: np.ndarray) -> laspy.PackedPointRecord:
     return as_points(layout.point_format, runs_of_bytes(layout), records)
 
 
+def attributes_of(layout: LasFile) -> frozenset[str]:
+    """Return the names of the attributes of a point format, without extra bytes."""
+    import laspy
+
+    return frozenset(laspy.PointFormat(layout.point_format).dimension_names)
+
+
 def as_points(
     point_format: int, extra: Iterable[tuple[str, int]], records: np.ndarray
 ) -> laspy.PackedPointRecord:

@@ -33,30 +33,37 @@ def count_from_one(cloud: PointCloud) -> PointCloud:
     """Return points that were just read with return numbers that begin at 1, even if they begin at
     0 in the file.
     """
+    number, total = cloud.return_number, cloud.number_of_returns
+    if number.all():
+        return cloud
+    numbers, totals = begin_at_zero(pulses_of(number, total))
+    if numbers:
+        number += 1
+        cloud.from_zero = True
+    if totals:
+        total += 1
+    return cloud
+
+
+def pulses_of(number: np.ndarray, total: np.ndarray) -> np.ndarray:
+    """Return how many points have each return number (row) and number of returns (column); int
+    (16, 16).
+    """
+    pairs = number.astype(np.uint8) << np.uint8(4) | total.astype(np.uint8)
+    return np.bincount(pairs, minlength=256).reshape(16, 16)
+
+
+def begin_at_zero(pulses: np.ndarray) -> tuple[bool, bool]:
+    """Return whether return numbers, and whether numbers of returns, begin at 0 instead of 1."""
     # They begin at 0 if pulses with several returns have a return 0 and higher ones, but no return
     # whose number is the number of returns; or if numbers of returns begin at 0 as well, so that as
     # many points have return 0 as have the number of returns. A file whose return numbers are all 0
     # does not count returns.
-    number, total = cloud.return_number, cloud.number_of_returns
-    if number.all():
-        return cloud
-    zero, last = number == 0, number >= total
-    if _is_first_of_several(zero, last, total > 1):
-        number += 1
-        cloud.from_zero = True
-    elif _are_both_from_zero(zero, last, total):
-        number += 1
-        total += 1
-        cloud.from_zero = True
-    return cloud
-
-
-def _is_first_of_several(zero: np.ndarray, last: np.ndarray, several: np.ndarray) -> bool:
-    firsts, lasts = (int(np.count_nonzero(several & mask)) for mask in (zero, last))
-    return firsts > 0 and lasts <= _MOST_WRONG * firsts and bool(np.any(several & ~zero))
-
-
-def _are_both_from_zero(zero: np.ndarray, last: np.ndarray, total: np.ndarray) -> bool:
-    several = total > 0
-    firsts, lasts = (int(np.count_nonzero(several & mask)) for mask in (zero, last))
-    return firsts > 0 and abs(firsts - lasts) <= _CUT_OFF * firsts and not several.all()
+    number, total = np.indices(pulses.shape)
+    last = number >= total
+    firsts, lasts = pulses[0, 2:].sum(), pulses[last & (total > 1)].sum()
+    if 0 < firsts and lasts <= _MOST_WRONG * firsts and pulses[1:, 2:].any():
+        return True, False
+    firsts, lasts = pulses[0, 1:].sum(), pulses[last & (total > 0)].sum()
+    both = 0 < firsts and abs(firsts - lasts) <= _CUT_OFF * firsts and pulses[:, 0].any()
+    return bool(both), bool(both)

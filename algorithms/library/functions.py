@@ -68,6 +68,7 @@ class Function:
     sets: tuple[type[ParameterSet], ...]
     run: Run
     result: type | None = None  # class of the value that it returns
+    result_of_many: type | None = None  # class of this value if there are many files
     gives: Kind | None = None  # kind of this value, if `result` is None
     has_method: bool = False  # whether it takes the parameters of a ground filter
     # Other names of parameters with several values, which take one value.
@@ -105,7 +106,7 @@ class Function:
             returns = f"\n\nReturns\n-------\n{self.gives.type}\n    {self.gives.words}"
         if self.result is not None:
             first = (self.result.__doc__ or "").partition("\n")[0]
-            many = "; of many files a `SurveySummary`." if self._tells_of_tiles else "."
+            many = f"; of many files a `{self._many}`." if self._many else "."
             text = f"{first.rstrip('.')}{many}"
             returns = f"\n\nReturns\n-------\n{self.result.__name__}\n    {text}"
         return f"{about}\n\nParameters\n----------\n{sections}{returns}\n{_RAISES}"
@@ -116,12 +117,15 @@ class Function:
         if self.gives is not None:
             return self.gives.type
         name = "None" if self.result is None else self.result.__name__
-        return f"{name} | Any" if self._tells_of_tiles else name
+        return f"{name} | Any" if self._many else name
 
     @property
-    def _tells_of_tiles(self) -> bool:
-        """Whether it writes points, and so returns a `SurveySummary` of many files."""
-        return self.result is not None and issubclass(self.result, TileSummary)
+    def _many(self) -> str:
+        """The name of the class that it returns if there are many files, if that is another."""
+        if self.result_of_many is not None:
+            return self.result_of_many.__name__
+        writes_points = self.result is not None and issubclass(self.result, TileSummary)
+        return "SurveySummary" if writes_points else ""
 
     @property
     def signature(self) -> inspect.Signature:

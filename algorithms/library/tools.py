@@ -92,15 +92,17 @@ def _of_file_tool(command: str) -> Function:
         (*(argument for argument in given if argument.default is not REQUIRED), arguments.PROGRESS),
         tool.sets,
         run,
-        _result_of(tool),
+        *_results_of(tool),
         flags=tool.flags,
     )
 
 
-def _result_of(tool: FileTool) -> type | None:
-    """Return the class of the summary of a tool, which its work is annotated with."""
-    name = inspect.signature(tool.work).return_annotation
-    return getattr(sys.modules[tool.work.__module__], str(name), None)
+def _results_of(tool: FileTool) -> list[type | None]:
+    """Return the class of the summary of a tool, and that of many files if it has another; the work
+    of the tool is annotated with both.
+    """
+    names = str(inspect.signature(tool.work).return_annotation).split(" | ")
+    return [getattr(sys.modules[tool.work.__module__], name, None) for name in names]
 
 
 def arguments_of(declared: Input) -> tuple[Argument, ...]:
@@ -113,7 +115,8 @@ def arguments_of(declared: Input) -> tuple[Argument, ...]:
     if declared.kind == "crs":
         return (arguments.CRS,)
     if declared.kind == "clouds":
-        return (CLASSIFIED if declared.help else arguments.SOURCES,)
+        sources = CLASSIFIED if declared.help else arguments.SOURCES
+        return (replace(sources, name=declared.name),)
     kind = "text" if declared.kind == "address" else declared.kind
     kind = kind if kind in KINDS else "path"
     is_required = not declared.optional and kind not in ("extent", "words")

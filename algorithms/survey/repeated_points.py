@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Callable, Sequence
+from typing import Callable, Iterable, Iterator, Sequence
 
 import numpy as np
 
@@ -14,6 +14,34 @@ from ..las.lasfile import LasFile
 _SORTED_TOGETHER = 1 << 25
 # Multipliers that spread the bits of a number (Steele, Lea and Flood 2014, SplitMix64).
 _SPREAD = (0xBF58476D1CE4E5B9, 0x94D049BB133111EB)
+
+
+def keys_of(count: int, columns: Iterable[np.ndarray]) -> np.ndarray:
+    """Return keys of rows, uint64, which are equal if all columns of 64 bits are equal."""
+    keys = np.zeros(count, dtype=np.uint64)
+    for column in columns:
+        keys ^= column.view(np.uint64)
+        for shift, factor in zip((30, 27), _SPREAD):
+            keys ^= keys >> np.uint64(shift)
+            keys *= np.uint64(factor)
+        keys ^= keys >> np.uint64(31)
+    return keys
+
+
+def count_repeated(keys: np.ndarray) -> int:
+    """Return how many keys repeat an earlier one."""
+    parts = (np.sort(keys[places]) for places in _parts(keys))
+    return sum(int(np.count_nonzero(part[1:] == part[:-1])) for part in parts)
+
+
+def _parts(keys: np.ndarray) -> Iterator[np.ndarray | slice]:
+    """Yield the places of keys that begin with the same bits, as many as are sorted together."""
+    bits = math.ceil(math.log2(max(len(keys) / _SORTED_TOGETHER, 1.0)))
+    if not bits:
+        yield slice(None)
+        return
+    for number in range(1 << bits):
+        yield np.flatnonzero(keys >> np.uint64(64 - bits) == number)
 
 
 class RepeatedPoints:
@@ -48,32 +76,21 @@ class RepeatedPoints:
 
     def _keys_of(self, part: PointCloud) -> np.ndarray:
         columns = [
-            np.rint((whole * scale + offset) / unit).astype(np.int64).view(np.uint64)
+            np.rint((whole * scale + offset) / unit).astype(np.int64)
             for whole, scale, offset, unit in zip(
                 (part.x, part.y, part.z), part.scale, part.offset, self._unit
             )
         ]
         columns.append(part.return_number.astype(np.uint64))
         if self.has_times and part.gps_time is not None:
-            columns.append((part.gps_time + 0.0).view(np.uint64))  # + 0.0: there is a -0.0, too
-        keys = np.zeros(part.count, dtype=np.uint64)
-        for column in columns:
-            keys ^= column
-            for shift, factor in zip((30, 27), _SPREAD):
-                keys ^= keys >> np.uint64(shift)
-                keys *= np.uint64(factor)
-            keys ^= keys >> np.uint64(31)
-        return keys
+            columns.append(part.gps_time + 0.0)  # + 0.0: there is a -0.0, too
+        return keys_of(part.count, columns)
 
     def find(self) -> None:
         """Find the repeated points, after all parts were added; `among` starts again with them."""
-        bits = math.ceil(math.log2(max(len(self._keys) / _SORTED_TOGETHER, 1.0)))
-        for number in range(1 << bits):
-            if bits:
-                places = np.flatnonzero(self._keys >> np.uint64(64 - bits) == number)
-                self._find_among(places, self._keys[places])
-            else:
-                self._find_among(np.arange(len(self._keys)), self._keys)
+        for places in _parts(self._keys):
+            indices = np.arange(len(self._keys)) if isinstance(places, slice) else places
+            self._find_among(indices, self._keys[places])
         self._place = 0
 
     def _find_among(self, places: np.ndarray, keys: np.ndarray) -> None:

@@ -45,7 +45,7 @@ MAP_TOOLS = {
 }
 # The tools that read files and write others.
 FILE_TOOLS = {
-    "info": Listed("info", "Describes a point cloud file."),
+    "info": Listed("info", "Describes point cloud files, and checks them."),
     "fetch": Listed("fetch", "Downloads the points of a remote point cloud that lie in an area."),
     "remove-off-terrain-objects": Listed(
         "off_terrain",

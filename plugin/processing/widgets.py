@@ -161,12 +161,25 @@ class _CheckBox(QgsAbstractProcessingParameterWidgetWrapper):
         return self.wrappedWidget().isChecked()
 
 
-class _ChoiceBox(QgsAbstractProcessingParameterWidgetWrapper):
-    """A box with the labels in the metadata of the parameter."""
+class _LabelledBox(QgsAbstractProcessingParameterWidgetWrapper):
+    """A box with choices, and its label; the dialog keeps it, and what is in the same row."""
 
     def createLabel(self) -> QLabel:
         """Return the label."""
         return _label_of(self.parameterDefinition())
+
+    def postInitialize(self, wrappers: list[QgsAbstractProcessingParameterWidgetWrapper]) -> None:
+        """Let the dialog keep all wrappers of a row as long as it is open."""
+        # A table of batch mode that loads a file drops the wrappers of its first row, whose widgets
+        # are deleted later. PyQt then takes new wrappers, which are where the old ones were, for
+        # deleted: "wrapped C/C++ object has been deleted".
+        super().postInitialize(wrappers)
+        if self.parent() is not None:
+            vars(self.parent()).setdefault("bare_earth_rows", []).append(wrappers)
+
+
+class _ChoiceBox(_LabelledBox):
+    """A box with the labels in the metadata of the parameter."""
 
     def createWidget(self) -> QWidget:
         """Return the box, with the default chosen."""
@@ -226,12 +239,8 @@ class _DeliveryBox(_ChoiceBox):
             line.setPlaceholderText(tr("Choose a folder"))  # not "[Skip output]"
 
 
-class _ChoicesBox(QgsAbstractProcessingParameterWidgetWrapper):
+class _ChoicesBox(_LabelledBox):
     """A box with the labels in the metadata of the parameter, for several choices."""
-
-    def createLabel(self) -> QLabel:
-        """Return the label."""
-        return _label_of(self.parameterDefinition())
 
     def createWidget(self) -> QWidget:
         """Return the box, with the defaults chosen."""

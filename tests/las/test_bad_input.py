@@ -1,4 +1,5 @@
 import builtins
+import functools
 import importlib.util
 import os
 import struct
@@ -16,12 +17,11 @@ from bare_earth.algorithms.las.reading import read_cloud
 from bare_earth.algorithms.las.writing import check_writable
 
 
-def refused(path, match, count=60):
+def refused(path, match, count=60, reads=(read_cloud, info)):
     """Read, describe and write a file; each must end with the same one sentence."""
     target = path.parent / "never.las"
     for action in (
-        lambda: read_cloud(path),
-        lambda: info(path),
+        *(functools.partial(read, path) for read in reads),
         lambda: write_classified(path, target, np.zeros(count, np.uint8)),
     ):
         with pytest.raises(BareEarthError, match=match) as caught:
@@ -38,7 +38,9 @@ def test_a_missing_file(tmp_path):
 
 def test_a_folder(tmp_path):
     (tmp_path / "in.las").mkdir()
-    refused(tmp_path / "in.las", "is a folder")
+    refused(tmp_path / "in.las", "is a folder", reads=[read_cloud])
+    with pytest.raises(BareEarthError, match="No .las, .laz or .copc.laz file is found in"):
+        info(tmp_path / "in.las")
 
 
 @pytest.mark.parametrize("content", [b"", b"LAS", b"PK\3\4" + bytes(500), b"x,y,z\n1,2,3\n"])

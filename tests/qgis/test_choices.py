@@ -2,7 +2,8 @@
 
 import pytest
 from qgis.core import QgsApplication, QgsProcessingContext
-from qgis.PyQt.QtCore import Qt
+from qgis.PyQt import sip
+from qgis.PyQt.QtCore import QCoreApplication, QEvent, Qt
 from qgis.PyQt.QtWidgets import QComboBox
 from support import remove
 
@@ -53,6 +54,24 @@ def test_the_table_of_batch_mode_has_labels_too(plugin):
     algorithm = QgsApplication.processingRegistry().createAlgorithmById(TIN)
     dialog = BatchAlgorithmDialog(algorithm)
     assert box_of(dialog, "Steep or rugged terrain").currentText() == "Automatic"
+    remove(dialog)
+
+
+@pytest.mark.parametrize("name", [TIN, "bareearth:classifytiles", "bareearth:relief"])
+def test_a_saved_table_of_batch_mode_can_be_run(name, plugin):
+    from processing.gui.BatchAlgorithmDialog import BatchAlgorithmDialog
+
+    dialog = BatchAlgorithmDialog(QgsApplication.processingRegistry().createAlgorithmById(name))
+    panel = dialog.mainWidget()
+    # As it loads a file: rows are replaced, and the old widgets are deleted later.
+    for rows in (5, 2, 9):
+        panel.clear()
+        panel.addRow(rows)
+        QCoreApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
+        wrappers = [wrapper for row in panel.wrappers for wrapper in row if wrapper is not None]
+        assert len(panel.wrappers) == rows and not any(map(sip.isdeleted, wrappers))
+        for wrapper in wrappers:
+            wrapper.parameterValue()
     remove(dialog)
 
 

@@ -8,9 +8,6 @@ not depend on the files or on their order, so there are no seams.
 from __future__ import annotations
 
 import itertools
-import math
-import mmap
-import shutil
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -29,6 +26,7 @@ from ...las.cloud import PointCloud
 from ...rasters.cell_grid import MOST_CELLS
 from ...report.pictures import reduced
 from ...survey.repeated_points import RepeatedPoints
+from ...survey.scratch import ScratchArrays
 from .made_points import WATER, MadePoints
 from .planes import WINDOWS, planes
 
@@ -57,33 +55,25 @@ _NEAR = 0.5
 _SQUARE = 10.0
 
 
-class Store:
+class Store(ScratchArrays):
     """Creates arrays in memory, or in files of a temporary folder if cells or points are many; an
     error says if there are too many cells, or too little space on the disk.
     """
 
     def __init__(self, folder: Path, cells: int, points: int) -> None:
-        self._folder = None if max(cells, points) <= _MOST_IN_MEMORY else folder
+        super().__init__(None if max(cells, points) <= _MOST_IN_MEMORY else folder)
         size = _BYTES * cells + _BYTES_A_POINT * points
         if cells > MOST_CELLS:
             raise BareEarthError(
                 f"The rasters would have {cells:,} cells. Choose a larger cell size, or remove"
                 " points with stray coordinates."
             )
-        if self._folder and shutil.disk_usage(folder).free < size:
+        if not self.has_room(size):
             raise BareEarthError(
                 f"{cells:,} cells and {points:,} points need {size / 1e9:.0f} GB on the disk of"
                 f" {folder.parent} while they are counted. Free some space, or choose a larger cell"
                 " size."
             )
-
-    def array(self, name: str, shape: tuple[int, ...], kind: str) -> np.ndarray:
-        """Return an array of zeros."""
-        if self._folder is None:
-            # In arrays of NumPy, a cell would take a page of 2 MB.
-            size = max(math.prod(shape) * np.dtype(kind).itemsize, 1)
-            return np.ndarray(shape, dtype=kind, buffer=mmap.mmap(-1, size))
-        return np.memmap(self._folder / f"{name}.cells", dtype=kind, mode="w+", shape=shape)
 
 
 class Grid(NamedTuple):
