@@ -2,27 +2,22 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Callable, Iterator
+from typing import TYPE_CHECKING, Any, Iterator
 
 import numpy as np
 
-from ..core.errors import printable
-from ..core.points import Box
 from ..core.progress import SILENT, Progress
 from ..core.threads import over_parts, parts_of
-from ..crs.matching import named_with_heights
-from ..crs.measurable import length_scale, wrong_lengths
-from ..crs.system import Crs, unit_name
+from ..crs.system import Crs
 from .backends import require
 from .cloud import PointCloud
 from .crs_records import read_crs
-from .extrabytes import REMEMBERED, dimension_names, remembers
-from .lasfile import FIRST_EXTENDED_FORMAT, Evlr, LasFile, Vlr
+from .extrabytes import REMEMBERED, remembers
+from .lasfile import FIRST_EXTENDED_FORMAT, LasFile
 from .opening import open_las
 from .records import MOST_KEPT, named, needed, read_records
-from .return_numbers import FROM_ZERO, count_from_one
+from .return_numbers import count_from_one
 
 if TYPE_CHECKING:
     import laspy

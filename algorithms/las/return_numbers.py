@@ -62,8 +62,8 @@ def begin_at_zero(pulses: np.ndarray) -> tuple[bool, bool]:
     number, total = np.indices(pulses.shape)
     last = number >= total
     firsts, lasts = pulses[0, 2:].sum(), pulses[last & (total > 1)].sum()
-    if 0 < firsts and lasts <= _MOST_WRONG * firsts and pulses[1:, 2:].any():
+    if firsts > 0 and lasts <= _MOST_WRONG * firsts and pulses[1:, 2:].any():
         return True, False
     firsts, lasts = pulses[0, 1:].sum(), pulses[last & (total > 0)].sum()
-    both = 0 < firsts and abs(firsts - lasts) <= _CUT_OFF * firsts and pulses[:, 0].any()
+    both = firsts > 0 and abs(firsts - lasts) <= _CUT_OFF * firsts and pulses[:, 0].any()
     return bool(both), bool(both)

@@ -68,13 +68,13 @@ class Function:
     sets: tuple[type[ParameterSet], ...]
     run: Run
     result: type | None = None  # class of the value that it returns
-    result_of_many: type | None = None  # class of this value if there are many files
     gives: Kind | None = None  # kind of this value, if `result` is None
     has_method: bool = False  # whether it takes the parameters of a ground filter
     # Other names of parameters with several values, which take one value.
     flags: Mapping[str, str] = field(default_factory=dict)
     without: tuple[str, ...] = ()  # parameters of the sets that have no effect in it
     looks_around: bool = True  # as of the tool
+    result_of_many: type | None = None  # class of the value of many files, if it is another
 
     @property
     def parameters(self) -> list[Described]:

@@ -85,6 +85,7 @@ def _of_file_tool(command: str) -> Function:
         outputs = _outputs_of(tool, values)
         return run_tool(tool, inputs, outputs, sets, progress_of(values.progress))
 
+    result, *many = _results_of(tool)
     return Function(
         command.replace("-", "_"),
         tool.help,
@@ -92,8 +93,9 @@ def _of_file_tool(command: str) -> Function:
         (*(argument for argument in given if argument.default is not REQUIRED), arguments.PROGRESS),
         tool.sets,
         run,
-        *_results_of(tool),
+        result,
         flags=tool.flags,
+        result_of_many=many[0] if many else None,
     )
 
 

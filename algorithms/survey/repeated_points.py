@@ -75,7 +75,7 @@ class RepeatedPoints:
         self._place = stop
 
     def _keys_of(self, part: PointCloud) -> np.ndarray:
-        columns = [
+        columns: list[np.ndarray] = [
             np.rint((whole * scale + offset) / unit).astype(np.int64)
             for whole, scale, offset, unit in zip(
                 (part.x, part.y, part.z), part.scale, part.offset, self._unit

@@ -68,7 +68,9 @@ def test_the_imports_are_read_rightly(tmp_path):
     here = ROOT / "algorithms" / "filters" / "__init__.py"
     assert ".algorithms.core.parameters.ParameterSet" in _imports(here)
     assert ".algorithms.filters.tin" in _imports(here)
-    assert ".algorithms.las.reading" in _imports(ROOT / "algorithms" / "tools" / "info" / "__init__.py")
+    assert ".algorithms.las.reading" in _imports(
+        ROOT / "algorithms" / "tools" / "info" / "__init__.py"
+    )
     assert "numpy" in _imports(here.with_name("method.py"))
     assert "typing.Callable" in _imports(here.with_name("method.py"))
     assert len(SHIPPED) > 20

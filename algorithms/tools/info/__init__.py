@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import tempfile
 from pathlib import Path
 from typing import Sequence
@@ -17,7 +18,7 @@ from ...crs.measurable import length_scale
 from ...crs.system import Crs
 from ...las.crs_records import read_crs
 from ...las.extrabytes import dimension_names
-from ...las.lasfile import LasFile
+from ...las.lasfile import Evlr, LasFile, Vlr
 from ...las.opening import NoPoints, open_las
 from ...las.reading import require_packages
 from ...las.records import read_records
@@ -42,9 +43,9 @@ def describe(source: Inputs, progress: Progress = SILENT) -> Description | Surve
         return _described(_opened(source[0], source.stated), progress)
     paths = find_files(source, source.recursive)
     files, unreadable = [], {}
-    for path, share in zip(paths, progress.shares(*(path.stat().st_size + 1 for path in paths))):
+    for path, share in zip(paths, progress.shares(*(1.0 for _ in paths))):
         try:
-            files.append(_described(_opened(path, source.stated), share))
+            files.append(_described(_opened(path, source.stated), share.quiet()))
         except BareEarthError as error:
             unreadable[str(path)] = str(error)
     return _of_survey(files, unreadable)
@@ -70,14 +71,13 @@ def _described(layout: LasFile, progress: Progress) -> Description:
                 f"{layout.path} needs {size / 1e9:.0f} GB on the disk of {folder.parent} while its"
                 " points are compared. Free some space there."
             )
-        tally = Tally(layout, scratch)
         done, reading = 0, progress.part(0.0, 0.7)
-        for records in read_records(layout, _MOST_RECORDS) if layout.count else ():
-            tally.add(records)
-            done += len(records)
-            reading(done / layout.count)
-        checks = counts_of(layout, crs, tally)
-        tally.close()
+        with contextlib.closing(Tally(layout, scratch)) as tally:
+            for records in read_records(layout, _MOST_RECORDS) if layout.count else ():
+                tally.add(records)
+                done += len(records)
+                reading(done / layout.count)
+            checks = counts_of(layout, crs, tally)
     if begin_at_zero(tally.pulses)[0]:
         progress.warning(FROM_ZERO)
     return _description(layout, crs, tally, checks)
@@ -86,11 +86,7 @@ def _described(layout: LasFile, progress: Progress) -> Description:
 def _description(
     layout: LasFile, crs: Crs, tally: Tally, checks: dict[str, int | None]
 ) -> Description:
-    lowest, highest = (
-        tuple(float(whole * scale + offset) for whole, scale, offset in
-              zip(corner.tolist(), layout.scale, layout.offset)) if layout.count else None
-        for corner in (tally.lowest, tally.highest)
-    )  # fmt: skip
+    lowest, highest = _corner(layout, tally.lowest), _corner(layout, tally.highest)
     box = (*lowest[:2], *highest[:2]) if lowest and highest else None
     scale = length_scale(crs, box)
     flags = dict(tally.flags)
@@ -121,13 +117,25 @@ def _description(
         all_zero=tally.zero if layout.count else [],
         checks=checks,
         extra_dimensions=dimension_names(layout),
-        records=[
-            f"{record.key[0]} {record.key[1]} {record.description}".rstrip()
-            for record in (*layout.vlrs, *layout.evlrs)
-        ],
+        records=[*map(_named, layout.vlrs), *map(_named, layout.evlrs)],
         system_identifier=layout.system_identifier,
         software=layout.software,
     )
+
+
+def _named(record: Vlr | Evlr) -> str:
+    return f"{record.key[0]} {record.key[1]} {record.description}".rstrip()
+
+
+def _corner(layout: LasFile, whole: np.ndarray) -> tuple[float, float, float] | None:
+    """Return x, y and z in units of the CRS; None without points."""
+    if not layout.count:
+        return None
+    x, y, z = (
+        int(value) * scale + offset
+        for value, scale, offset in zip(whole, layout.scale, layout.offset)
+    )
+    return x, y, z
 
 
 def _density(count: int, crs: Crs, scale: float, box: Box) -> float | None:
@@ -145,7 +153,9 @@ def _of_survey(files: Sequence[Description], unreadable: dict[str, str]) -> Surv
     """Return what many files have in common, and what differs."""
     texts = {name: [str(getattr(file, name)) for file in files] for name in _COMPARED}
     different = {name: sorted(set(values)) for name, values in texts.items()}
-    boxes = [(*file.minimum[:2], *file.maximum[:2]) for file in files if file.minimum and file.maximum]
+    boxes = [
+        (*file.minimum[:2], *file.maximum[:2]) for file in files if file.minimum and file.maximum
+    ]
     return SurveyDescription(
         tuple(files),
         unreadable,

@@ -9,6 +9,7 @@ airborne laser scanning data, Remote Sensing of Environment 251.
 from __future__ import annotations
 
 import math
+
 import numpy as np
 
 from ...crs.system import Crs
