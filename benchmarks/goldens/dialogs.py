@@ -143,7 +143,7 @@ def _of_run(name: str, folder: Path) -> Digests:
 
     algorithm, given = RUNS[name]
     (folder / name).mkdir()
-    parameters = {key: _placed(value, folder, name) for key, value in given.items()}
+    parameters = {key: placed(value, folder, name) for key, value in given.items()}
     feedback = QgsProcessingFeedback(False)
     results = processing.run(f"bareearth:{algorithm}", parameters, feedback=feedback)
     texts = {}
@@ -157,7 +157,8 @@ def _of_run(name: str, folder: Path) -> Digests:
     return {key: value for key, value in found.items() if not _OF_VERSIONS.fullmatch(key)}
 
 
-def _placed(value: Any, folder: Path, name: str) -> Any:
+def placed(value: Any, folder: Path, name: str) -> Any:
+    """Return the value of a parameter, with the folders of the inputs and of a run."""
     if not isinstance(value, str):
         return value
     if value.startswith("OUT/"):

@@ -106,11 +106,16 @@ def check_area_only(parameters: dict[str, object], chosen: Sequence[ParameterSet
             values.check_area(has_area(parameters))
 
 
-def area_options(area: Area | None, progress: Progress) -> dict[str, tuple[str, ...]]:
-    """Return the options of the command line for an area; tell the user how to add a boundary."""
-    if area is not None and area.polygons:
+def area_options(area: Area | None, file: str, progress: Progress) -> dict[str, tuple[str, ...]]:
+    """Return the options of the command line for an area, given the file of its boundary; without
+    one, tell the user how to add it.
+    """
+    if area is None:
+        return {}
+    if area.polygons and not file:
         progress.info(
             "In the command line the boundary is missing: save it in the CRS of the points"
             " as boundary.geojson, and add --boundary boundary.geojson."
         )
-    return {"extent": tuple(map(repr, area.box)) if area is not None and area.box else ()}
+    box = tuple(map(repr, area.box)) if area.box else ()
+    return {"extent": box, "boundary": (file,) if file else ()}

@@ -367,7 +367,8 @@ def command_line(
     words = ["bare-earth", command, *files]
     for option, value in options.items():
         if value:
-            words += [f"--{option.lower()}", *(value if isinstance(value, tuple) else (value,))]
+            values = value if isinstance(value, tuple) else (value,)
+            words += [f"--{option.lower().replace('_', '-')}", *values]
     for parameters in chosen:
         for declared in parameters.declarations():
             value = getattr(parameters, declared.name)

@@ -242,11 +242,12 @@ class CompositionAlgorithm(ToolAlgorithm):
         cloud = cloud or "classified.laz"
         # For many files, the folder of their virtual point cloud.
         target = str(Path(cloud).parent) if cloud.endswith(".vpc") else cloud
-        options = self._options_of_inputs()
+        options = dict(self._options_of_inputs())
         finding = [of_type[kind] for kind in (TileMethod, Selection, Resources)]
         words = [*self.source_words(), target, *["--area-only"] * bool(self._given["area"].value)]
-        of_points = {name: options.get(name) for name in ("crs", "extent")}
-        yield command_line("classify", words, finding, of_points)
+        of_points = {name: options.get(name) for name in ("crs", "extent", "boundary")}
+        corrections = {"corrections": options.pop("corrections", None)}
+        yield command_line("classify", words, finding, {**of_points, **corrections})
         if layers:
             ground = Selection.among(chosen).to_class
             classes = {"ground-classes": "" if ground == GROUND else str(ground)}

@@ -49,6 +49,7 @@ from .inputs import (
     survey_of,
     words_of,
 )
+from .layer_files import file_for_command
 from .remote import LAYER_HELP, Remote
 from .stated_crs import text_of
 
@@ -91,6 +92,10 @@ class Request(NamedTuple):
     def is_empty(self, declared: Input) -> bool:
         """Return whether the field of an input is empty."""
         return bool(compat.is_empty(self.parameters.get(declared.field_name)))
+
+    def file_in(self, name: str) -> str:
+        """Return the file of the layer in a field, for the command line; see `file_for_command`."""
+        return file_for_command(self.algorithm, self.parameters, name, self.context)
 
 
 def add_input(algorithm: BareEarthAlgorithm, declared: Input) -> None:
@@ -176,7 +181,7 @@ def _area(request: Request, declared: Input) -> Given:
             " --boundary boundary.geojson."
         )
         return Given(area)
-    return Given(area, area_options(area, request.progress))
+    return Given(area, area_options(area, request.file_in("BOUNDARY"), request.progress))
 
 
 def part_of(request: Request) -> tuple[Area | None, bool]:
@@ -212,13 +217,16 @@ def _corrections(request: Request, declared: Input) -> Given:
     if source is not None and source.fields().lookupField(name) < 0:
         text = mark("The corrections have no attribute {}. Choose the one to use.")
         raise Refusal(text, name)
-    progress.info(
-        "In the command line the corrections are missing: save them in the CRS of the points as"
-        f' corrections.geojson, their class as the attribute "{CLASS_FIELD}", and add --corrections'
-        " corrections.geojson."
-    )
+    file = request.file_in(layer) if name == CLASS_FIELD else ""
+    if not file:
+        progress.info(
+            "In the command line the corrections are missing: save them in the CRS of the points"
+            f' as corrections.geojson, their class as the attribute "{CLASS_FIELD}", and add'
+            " --corrections corrections.geojson."
+        )
     field = algorithm, parameters, layer, "Corrections", context, _crs_of(request)
-    return Given(Corrections(*zip(*layer_shapes(*field, attribute=name))))
+    found = Corrections(*zip(*layer_shapes(*field, attribute=name)))
+    return Given(found, {declared.name: file})
 
 
 def _constraints(request: Request, declared: Input) -> Given:
@@ -229,13 +237,14 @@ def _constraints(request: Request, declared: Input) -> Given:
             field = algorithm, parameters, part.field_name, part.label, context, _crs_of(request)
             found = layer_shapes(*field, _LAYERS[part.kind])
             shapes[part.name] = tuple(corners for corners, _ in found)
-    if shapes:
-        names = [name.replace("_", "-") for name in shapes]
+    files = {name: request.file_in(name.upper()) for name in shapes}
+    names = [name.replace("_", "-") for name, file in files.items() if not file]
+    if names:
         progress.info(
             "In the command line some layers are missing: save each in the CRS of the points as"
             f" GeoJSON, and add {' '.join(f'--{name} {name}.geojson' for name in names)}."
         )
-    return Given(Constraints(**shapes))
+    return Given(Constraints(**shapes), files)
 
 
 def _crs_of(request: Request) -> CloudCrs:
@@ -296,11 +305,13 @@ def _polygons(request: Request, declared: Input) -> Given:
     if declared.found and request.is_empty(declared):
         return Given(ToFind(), {declared.name: "automatic"})
     algorithm, parameters, context, progress = request
-    file = f"{declared.name}.geojson"
-    progress.info(
-        f"In the command line the {declared.name} is missing: save it in the CRS of the points as"
-        f" {file}."
-    )
+    file = request.file_in(declared.field_name)
+    if not file:
+        file = f"{declared.name}.geojson"
+        progress.info(
+            f"In the command line the {declared.name} is missing: save it in the CRS of the points"
+            f" as {file}."
+        )
     crs = algorithm.crs_of(*algorithm.inputs)
     field = declared.field_name, declared.label
     shapes = layer_shapes(
