@@ -96,7 +96,7 @@ def by_class(classes: Iterable[int]) -> Callable[[QgsPointCloudLayer], None]:
             QgsPointCloudCategory(value, colour, label) for value, (label, colour) in wanted.items()
         ]
         renderer.setCategories(categories)
-        _draw_from_above(renderer)
+        _draw_from_above(renderer, layer)
         layer.setRenderer(renderer)
         show_through(layer)
 
@@ -137,7 +137,7 @@ def by_height(
         shader = QgsColorRampShader(0.0, high, ramp_of(HEIGHTS))
         shader.classifyColorRamp()
         renderer.setColorRampShader(shader)
-        _draw_from_above(renderer)
+        _draw_from_above(renderer, layer)
         layer.setRenderer(renderer)
 
     return dress
@@ -150,7 +150,7 @@ def _usual_height(path: str, attribute: str) -> float:
     return float(np.quantile(values, _NEARLY_ALL)) if values.size else 0.0
 
 
-def _draw_from_above(renderer: QgsPointCloudRenderer) -> None:
+def _draw_from_above(renderer: QgsPointCloudRenderer, layer: QgsPointCloudLayer) -> None:
     """Draw the highest points last, and let points grow with the scale, between two sizes."""
     if hasattr(renderer, "setDrawOrder2d"):  # 3.26
         renderer.setDrawOrder2d(Qgis.PointCloudDrawOrder.BottomToTop)
@@ -158,8 +158,10 @@ def _draw_from_above(renderer: QgsPointCloudRenderer) -> None:
     size = QgsMapUnitScale()
     size.minSizeMMEnabled = size.maxSizeMMEnabled = True
     size.minSizeMM, size.maxSizeMM = _LEAST_MM, _MOST_MM
-    metres = "MetersInMapUnits" if hasattr(units, "MetersInMapUnits") else "RenderMetersInMapUnits"
-    renderer.setPointSizeUnit(getattr(units, metres))
+    # QGIS draws a layer without CRS in the units of the map, whatever they are. In a map in degrees
+    # it would take a minute to find the size of a metre there.
+    unit = "MetersInMapUnits" if layer.crs().isValid() else "MapUnits"
+    renderer.setPointSizeUnit(getattr(units, unit if hasattr(units, unit) else f"Render{unit}"))
     renderer.setPointSize(_METRES)
     renderer.setPointSizeMapUnitScale(size)
     renderer.setMaximumScreenError(_SCREEN_ERROR)

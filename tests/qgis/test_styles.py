@@ -6,6 +6,7 @@ import pytest
 from osgeo import gdal
 from qgis.core import (
     Qgis,
+    QgsCoordinateReferenceSystem,
     QgsExpression,
     QgsExpressionContext,
     QgsLayerTreeModel,
@@ -14,6 +15,7 @@ from qgis.core import (
     QgsProcessingParameterDefinition,
     QgsProject,
     QgsRasterLayer,
+    QgsUnitTypes,
 )
 from qgis.PyQt.QtCore import Qt
 from qgis.PyQt.QtGui import QPainter
@@ -466,3 +468,14 @@ def test_every_rule_has_a_name_and_the_rules_of_a_filter_have_their_own_colours(
             # Ground is brown to green.
             ground = [colour for code, (_, colour) in found.items() if code < NOT_GROUND]
             assert ground and all(20 <= colour.hsvHue() <= 170 for colour in ground)
+
+
+@pytest.mark.parametrize("crs", ["", "EPSG:25832"])
+def test_points_without_crs_are_sized_in_units_of_the_map(crs):
+    # In a map in degrees, the size of a metre is found for each point, with the ellipsoid.
+    layer = QgsPointCloudLayer("", "cloud", "copc")
+    layer.setCrs(QgsCoordinateReferenceSystem(crs))
+    clouds.by_class([1, 2])(layer)
+    unit = layer.renderer().pointSizeUnit()
+    metres = QgsUnitTypes.encodeUnit(unit) == "RenderMetersInMapUnits"
+    assert metres == bool(crs) and layer.renderer().pointSizeMapUnitScale().maxSizeMMEnabled
