@@ -35,7 +35,7 @@ from .feedback import FeedbackProgress, Refusal, tell_error_once, tell_of_unknow
 from .fields import field_of, parameters_of
 from .inputs import CloudCrs, remember_origin
 from .output_checks import check_outputs
-from .outputs import NOTHING_STAYS, do_not_load, is_blank, places_of
+from .outputs import NOTHING_STAYS, do_not_load, is_blank, places_of, with_outputs_of_step
 from .presets import presets_of
 from .stated_crs import crs_of_text, stated_crs_of
 
@@ -290,6 +290,7 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         feedback: QgsProcessingFeedback,
     ) -> dict[str, object]:
         """Run `compute`; if it is cancelled or fails, QGIS loads no output."""
+        parameters = with_outputs_of_step(self, parameters, context, feedback)
         before, progress = set(context.layersToLoadOnCompletion()), FeedbackProgress(feedback)
         results: dict[str, object] = {}
         has_failed = True

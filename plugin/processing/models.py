@@ -30,7 +30,7 @@ from .feedback import tell_of_unknown
 from .fields import help_of
 from .inputs import name_of
 from .output_checks import check_outputs
-from .outputs import do_not_load, places_of
+from .outputs import do_not_load, is_blank, places_of
 
 _CHOICES = {declared.name.upper(): declared for declared in TileMethod.declarations()}
 # Names of outputs in the models that make a classified cloud or contour lines.
@@ -144,9 +144,11 @@ class ShippedModel(QgsProcessingModelAlgorithm):
         defaults = {field.name(): _default(field) for field in self.parameterDefinitions()}
         tell_of_unknown(self, parameters, feedback)
         given = {**defaults, **parameters}
-        given.update(
-            {name: defaults[name] for name in self._needed if compat.is_empty(given[name])}
-        )
+        for field in self.destinationParameterDefinitions():
+            name = field.name()
+            if is_blank(given, name, context):
+                del given[name]  # steps make what is left empty
+                given.update({name: defaults[name]} if name in self._needed else {})
         results: dict[str, object] = {}
         try:
             results = super().processAlgorithm(given, context, feedback)

@@ -9,6 +9,7 @@ from qgis.core import (
     QgsProcessing,
     QgsProcessingAlgorithm,
     QgsProcessingContext,
+    QgsProcessingFeedback,
     QgsProcessingOutputLayerDefinition,
     QgsProperty,
 )
@@ -20,6 +21,7 @@ from ...algorithms.survey.files import Inputs
 from ...algorithms.tools.rasters.parameters import RasterOutput
 from .. import compat
 
+_OF_MODELS = "QgsProcessingMultiStepFeedback"
 NOTHING_STAYS = "Cancelled; nothing was written."
 TILES_STAY = "Cancelled. The finished tiles stay, and a later run can continue with them."
 
@@ -40,6 +42,27 @@ def given_path(value: object, context: QgsProcessingContext) -> Path | None:
 def is_blank(parameters: Mapping[str, object], name: str, context: QgsProcessingContext) -> bool:
     """Return whether the user left an output empty, as tables of batch runs do with text."""
     return name in parameters and bool(compat.is_empty(_given(parameters[name], context)))
+
+
+def with_outputs_of_step(
+    algorithm: QgsProcessingAlgorithm,
+    parameters: dict[str, object],
+    context: QgsProcessingContext,
+    feedback: QgsProcessingFeedback,
+) -> dict[str, object]:
+    """Return the parameters of a step of a model with temporary files for outputs that the user
+    left empty; those of other runs as they are.
+    """
+    # A model has an output in the parameters of a step if a later step may read it. QGIS makes a
+    # temporary file of it only if it is no output of the model.
+    if not feedback.inherits(_OF_MODELS):
+        return parameters
+    made = {
+        output.name(): output.generateTemporaryDestination()
+        for output in algorithm.destinationParameterDefinitions()
+        if is_blank(parameters, output.name(), context)
+    }
+    return {**parameters, **made}
 
 
 def _given(value: object, context: QgsProcessingContext) -> object:

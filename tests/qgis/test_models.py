@@ -10,6 +10,7 @@ from qgis.core import (
     QgsProcessingModelChildParameterSource,
     QgsProcessingModelOutput,
     QgsProcessingModelParameter,
+    QgsProcessingOutputLayerDefinition,
     QgsProcessingParameterFile,
     QgsProcessingParameterNumber,
 )
@@ -85,6 +86,48 @@ def test_a_model_survives_saving_and_runs(fixed, algorithm, scene, tmp_path, con
     assert done, log.text
     assert results["CHILD_RESULTS"]["classify"]["GROUND_COUNT"] == scene.ground_count
     assert all(os.path.getsize(path) for path in files.values())
+
+
+def step(name, algorithm, fixed, linked, outputs):
+    """Return a step of a model with values, links to outputs of steps, and outputs of the model."""
+    child, sources = (
+        QgsProcessingModelChildAlgorithm(algorithm),
+        QgsProcessingModelChildParameterSource,
+    )
+    child.setChildId(name)
+    for field, value in fixed.items():
+        child.addParameterSources(field, [sources.fromStaticValue(value)])
+    for field, (other, output) in linked.items():
+        child.addParameterSources(field, [sources.fromChildOutput(other, output)])
+    made = {}
+    for output in outputs:
+        made[output] = QgsProcessingModelOutput(output, output)
+        made[output].setChildId(name)
+        made[output].setChildOutputName(output)
+    child.setModelOutputs(made)
+    return child
+
+
+@pytest.mark.parametrize("blank", ["", QgsProcessingOutputLayerDefinition("")])
+def test_a_step_makes_what_later_ones_need_though_its_cell_is_blank(
+    blank, scene, tmp_path, context, log
+):
+    classified = scene.with_classes(tmp_path / "classified.las")
+    model = QgsProcessingModelAlgorithm("Relief", "tests")
+    model.addChildAlgorithm(
+        step("terrain", "bareearth:terrainmodel", {"INPUT": str(classified)}, {}, ["DTM"])
+    )
+    link = {"INPUT": ("terrain", "DTM")}
+    kinds = {"KINDS": ["hillshade"]}
+    model.addChildAlgorithm(step("relief", "bareearth:relief", kinds, link, ["OUTPUT_FOLDER"]))
+    model.updateDestinationParameters()
+    names = [field.name() for field in model.destinationParameterDefinitions()]
+    terrain = next(name for name in names if name.lower().endswith("dtm"))
+    folder = next(name for name in names if name != terrain)
+    parameters = {terrain: blank, folder: str(tmp_path / "relief")}
+    _, done = model.create().run(parameters, context, log)
+    assert done, log.text
+    assert len(list((tmp_path / "relief").glob("*.tif"))) == 1
 
 
 def test_the_dialog_gives_back_what_is_chosen(algorithm, scene, plugin):
