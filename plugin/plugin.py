@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from .provider import BareEarthProvider
 
 _MENU = "Bare Earth"
+_FIRST = "bareearth:pointcloudtoterrain"
 # The setting that stores whether the message on LAZ support was shown.
 _TOLD = "bare_earth/laz_support_told"
 # Milliseconds after which an uninstalled plugin is gone.
@@ -67,6 +68,7 @@ class BareEarthPlugin:
         """Add provider and menu to the QGIS window."""
         self.initProcessing()
         entries = {
+            tr("Point cloud to terrain…"): self.show_terrain,
             tr("LAZ support…"): self.show_laz_support,
             tr("Remove downloaded point clouds"): self.clear_cache,
             tr("Documentation"): self.show_help,
@@ -82,6 +84,14 @@ class BareEarthPlugin:
             )
         elif not self._support.is_there and not QgsSettings().value(_TOLD, False, type=bool):
             self._tell_of_laz_support()
+
+    def show_terrain(self) -> None:
+        """Open the dialog of *Point cloud to terrain*, with which most users begin."""
+        from qgis import processing
+
+        dialog = processing.createAlgorithmDialog(_FIRST)
+        if dialog is not None:
+            dialog.show()
 
     def show_laz_support(self) -> None:
         """Open the dialog for LAZ support."""
@@ -143,9 +153,14 @@ class BareEarthPlugin:
                 " installed only once."
             ),
         )
-        button = QPushButton(tr("LAZ support…"))
-        button.clicked.connect(self.show_laz_support)
-        message.layout().addWidget(button)
+        buttons = {
+            tr("LAZ support…"): self.show_laz_support,
+            tr("Point cloud to terrain…"): self.show_terrain,
+        }
+        for text, show in buttons.items():
+            button = QPushButton(text)
+            button.clicked.connect(show)
+            message.layout().addWidget(button)
         self._message = bar.pushWidget(message, Qgis.MessageLevel.Info, 0)
         QgsSettings().setValue(_TOLD, True)
 

@@ -164,7 +164,8 @@ def ground_of(path):
 def test_qgis_installs_the_zip(fresh):
     qgis, answer = fresh
     assert answer["menu"] == [
-        "LAZ support…", "Remove downloaded point clouds", "Documentation"
+        "Point cloud to terrain…", "LAZ support…", "Remove downloaded point clouds",
+        "Documentation",
     ]  # fmt: skip
     assert answer["algorithms"] >= 14
     assert answer["model"] == [True, ""]
@@ -207,6 +208,20 @@ def test_the_help_button_opens_the_page_in_the_plugin(qgis):
     assert Path(answer["opened"]) == help_folder / "tin-densification.html"
     assert "<h1" in Path(answer["opened"]).read_text(encoding="utf-8")
     assert all(Path(page).is_file() for page in answer["all"])
+
+
+def test_the_menu_opens_the_dialog_with_which_users_begin(qgis):
+    answer = qgis.window(
+        """
+        from qgis.PyQt.QtWidgets import QApplication
+        (menu,) = [one for one in iface.pluginMenu().actions() if one.text() == "Bare Earth"]
+        menu.menu().actions()[0].trigger()
+        QApplication.processEvents()
+        shown = [widget for widget in QApplication.topLevelWidgets() if widget.isVisible()]
+        answer["titles"] = [widget.windowTitle() for widget in shown]
+        """
+    )
+    assert "Point Cloud to Terrain" in " ".join(answer["titles"]).title()
 
 
 def test_the_menu_opens_the_documentation_in_the_plugin(qgis):

@@ -119,6 +119,8 @@ class Tally:
             np.array(points[name])
             for name in ("return_number", "number_of_returns", "point_source_id")
         )
+        # LAS specification: a point source id of 0 means the file source id.
+        strip[strip == 0] = self._layout.source_id
         self.pulses += pulses_of(number, total)
         self.strips += np.bincount(strip, minlength=1 << 16)
         if not self._layout.has_gps_times:
