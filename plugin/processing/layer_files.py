@@ -26,7 +26,7 @@ def file_for_command(
     value = parameters.get(name)
     if isinstance(value, QgsProcessingFeatureSourceDefinition):
         is_whole = not value.selectedFeaturesOnly and value.featureLimit < 0
-        if not is_whole or getattr(value, "filterExpression", ""):  # 3.32
+        if not is_whole or getattr(value, "filterExpression", False):  # 3.32
             return ""
     layer = algorithm.parameterAsVectorLayer(parameters, name, context)
     if not isinstance(layer, QgsVectorLayer) or layer.providerType() != _DRIVER:
