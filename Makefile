@@ -10,8 +10,8 @@ demo:  ## classify LAS=tile.laz (TRUTH=reference.laz), LAND=mountain, campus or 
 test:  ## run all that follows, installing a QGIS if there is none
 	@tools/test core lint qgis
 
-test-all:  ## run all that there is: what `test` runs, long tests, and test-systems
-	@tools/test core long windows oldest lint qgis
+test-all:  ## run what `test` and test-systems run, and the outputs of all tools as on processors with fewer instructions
+	@tools/test core levels windows oldest lint qgis
 
 test-core:  ## test the classifier, without QGIS
 	@tools/test core
