@@ -32,7 +32,7 @@ _HAS_SCALE = 0x08
 _HAS_OFFSET = 0x10
 _LARGEST_RECORD = 65535
 _UNDOCUMENTED = "undocumented"
-_MOST_UNDOCUMENTED = 255  # bytes that one descriptor can describe
+_MOST_UNDOCUMENTED = 231  # bytes that one descriptor describes here, in the place of the options
 
 
 @dataclass(frozen=True)
@@ -70,9 +70,13 @@ def place_dimension(layout: LasFile, dimension: ExtraDimension) -> tuple[LasFile
             return _with_record(layout, descriptors), Place(start, kind)
         start += _size(descriptor)
     # Bytes without a descriptor come before the new dimension, so they need one now.
+    number = 0
     while start < layout.record_length:
-        size = min(layout.record_length - start, _MOST_UNDOCUMENTED)
-        descriptors.append(struct.pack("<2xBB32s156x", 0, size, _UNDOCUMENTED.encode()))
+        size, number = min(layout.record_length - start, _MOST_UNDOCUMENTED), number + 1
+        if size & (_HAS_SCALE | _HAS_OFFSET):  # laspy would look for these, and refuse the file
+            size = (size & ~0x1F) | 0x07
+        name = _UNDOCUMENTED if number == 1 else f"{_UNDOCUMENTED} {number}"
+        descriptors.append(struct.pack("<2xBB32s156x", 0, size, name.encode()))
         start += size
     is_byte = dimension.values.dtype == np.uint8
     descriptors.append(_descriptor(dimension, _BYTE if is_byte else _FLOAT))

@@ -106,7 +106,18 @@ def test_many_undocumented_bytes_get_several_descriptors(las):
     after = las.split(target)
     assert np.array_equal(after.records[:, :-4], las.split(source).records)
     assert len(after.vlrs[0][54:]) == 3 * 192
-    assert [after.vlrs[0][54 + 192 * k + 3] for k in (0, 1)] == [255, 45]
+    assert [after.vlrs[0][54 + 192 * k + 3] for k in (0, 1)] == [231, 69]
+
+
+@pytest.mark.parametrize("extra", [1, 7, 8, 16, 24, 31, 40, 255, 300])
+def test_laspy_reads_what_has_undocumented_bytes(las, extra):
+    source, target = las.make(version=4, point_format=6, extra=extra), las.folder / "out.laz"
+    write_changed(source, target, HEIGHTS)
+    read = laspy.read(target)
+    assert np.array_equal(read["HeightAboveGround"], VALUES)
+    names = [*read.point_format.extra_dimension_names][:-1]
+    raw = np.column_stack([np.asarray(read[name]).reshape(60, -1) for name in names])
+    assert np.array_equal(raw, las.split(source).records[:, -extra:])
 
 
 @pytest.mark.parametrize("written", ["out.las", "out.laz", "out.copc.laz"])
