@@ -13,6 +13,7 @@ from ..core.points import Box
 from ..core.progress import SILENT, Progress
 from ..core.threads import parts_of
 from ..las.cloud import PointCloud
+from .rings import is_odd
 from .shapes import Geometry, Place, located
 
 # Points that are sorted together: few enough for memory, and many enough for the loop over edges.
@@ -138,24 +139,7 @@ def _last_polygon(x: np.ndarray, y: np.ndarray, polygons: tuple[Polygon, ...]) -
         first, last = np.searchsorted(y, (south, north))
         near = x[first:last]
         in_box = first + np.flatnonzero((near >= west) & (near <= east))
-        numbers[in_box[_is_odd(x[in_box], y[in_box], polygon)]] = number
+        numbers[in_box[is_odd(x[in_box], y[in_box], polygon)]] = number
     result = np.empty(len(x), dtype=np.int32)
     result[order] = numbers
     return result
-
-
-def _is_odd(x: np.ndarray, y: np.ndarray, polygon: Polygon) -> np.ndarray:
-    """Return which places, sorted by y, have an odd number of edges of a polygon east of them."""
-    odd = np.zeros(len(x), dtype=bool)
-    for ring in polygon:
-        following = np.roll(ring, -1, axis=0)
-        # From the lower to the upper end, so that a common edge of two polygons gives one result.
-        upwards = (ring[:, 1] <= following[:, 1])[:, None]
-        low, high = np.where(upwards, ring, following), np.where(upwards, following, ring)
-        firsts, lasts = np.searchsorted(y, low[:, 1]), np.searchsorted(y, high[:, 1])
-        for edge in np.flatnonzero(firsts < lasts):
-            places = slice(firsts[edge], lasts[edge])
-            (x_low, y_low), (x_high, y_high) = low[edge], high[edge]
-            run, rise = x_high - x_low, y_high - y_low
-            odd[places] ^= (x[places] - x_low) * rise < (y[places] - y_low) * run
-    return odd

@@ -11,6 +11,7 @@ from ..core.points import Box, box_in_words, box_round
 from ..core.progress import SILENT, Progress
 from ..crs.provider import LONGITUDE_LATITUDE, library, transformed
 from ..crs.system import Crs
+from .rings import area_lost
 
 _Shape = TypeVar("_Shape", np.ndarray, Tuple[np.ndarray, ...])  # a line, or the rings of a polygon
 
@@ -80,6 +81,13 @@ def located(
         touches &= (boxes[:, 1] <= north + reach) & (boxes[:, 3] >= south - reach)
         if not touches.any():
             raise outside(words, box_round(boxes), place.name, place.box, near)
+    lost = area_lost([shape for shape in in_crs if isinstance(shape, tuple)])
+    if lost:
+        lost *= place.crs.horizontal_unit**2
+        progress.warning(
+            f"A ring of {words} overlaps itself: what it covers twice, about {lost:,.3g} m², counts"
+            " as outside. Draw it so that it does not cross itself."
+        )
     return in_crs
 
 

@@ -3,12 +3,14 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from runs import Heard
 
 from bare_earth import BareEarthError
 from bare_earth.algorithms.crs.system import Crs
 from bare_earth.algorithms.las.cloud import PointCloud
 from bare_earth.algorithms.survey import area as area_module
 from bare_earth.algorithms.survey.area import Area
+from bare_earth.algorithms.survey.shapes import Place
 from bare_earth.algorithms.survey.vector_files import read_boundary
 
 SQUARE = [(0, 0), (10, 0), (10, 10), (0, 10), (0, 0)]
@@ -209,3 +211,21 @@ def test_a_boundary_that_is_no_text(tmp_path):
     path.write_bytes(bytes(range(128, 256)))
     with pytest.raises(BareEarthError, match="Cannot read"):
         read_boundary(path)
+
+
+TWICE = [(0, 0), (60, 0), (60, 40), (20, 40), (20, -20), (40, -20), (40, 60), (0, 60)]
+BOW_TIE = [(0, 0), (40, 40), (40, 0), (0, 40), (0, 0)]
+PLAIN = [(0, 0), (40, 0), (40, 40), (20, 10), (0, 40), (0, 0)]
+
+
+@pytest.mark.parametrize(
+    ("ring", "is_told"),
+    [(TWICE, True), (TWICE[::-1], True), (PLAIN[:-1] * 2, True), (BOW_TIE, False), (PLAIN, False)],
+)
+def test_a_ring_that_overlaps_itself_is_told_and_a_bow_tie_is_not(ring, is_told):
+    heard, area = Heard(), Area(None, ((np.array(ring, dtype=np.float64) + 500_000.0,),))
+    area.located(Place("points", Crs(epsg=25832)), heard)
+    assert any("overlaps itself" in text for text in heard.warnings) == is_told
+    if ring is TWICE:
+        told = float(heard.warnings[0].partition("about ")[2].split()[0])
+        assert told == pytest.approx(800, rel=0.05)
