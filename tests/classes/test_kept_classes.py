@@ -174,3 +174,27 @@ def test_water_above_its_bottom_is_no_canopy(tmp_path, classes, lowest):
     assert np.nanmin(heights_of(dsm)) == pytest.approx(lowest, abs=0.1)
     told = [text for text in progress.infos if "left out of the surface model" in text]
     assert told[0].startswith("9,060 points" if 40 in classes else "1,569 points")
+
+
+@pytest.mark.parametrize(("bottom", "point_format"), [(26, 1), (26, 6), (40, 6)])
+def test_the_water_above_the_bottom_in_files_of_noaa_is_no_canopy(tmp_path, bottom, point_format):
+    x, y = (axis.ravel() + 0.5 for axis in np.meshgrid(np.arange(30.0), np.arange(30.0)))
+    wet = x > 15
+    heights = np.append(np.where(wet, 97.0, 100.0), np.full(wet.sum(), 100.0))
+    surface = bottom + 1
+    classes = np.append(np.where(wet, bottom, 2), np.full(wet.sum(), surface))
+    places = np.append(x, x[wet] + 0.2), np.append(y, y[wet])
+    source = write_points(tmp_path / "in.las", *places, heights, 1, offset=(EAST, NORTH, 0.0))
+    las = laspy.convert(laspy.read(source), point_format_id=point_format)
+    las.classification = classes
+    las.write(source)
+    code, text, told = said(
+        "terrain", source, "--chm", tmp_path / "c.tif", "--ground-classes", 2, bottom, "--verbose"
+    )
+    assert code == 0
+    is_known = (bottom, point_format) != (26, 6)  # producers give their own meanings to 26
+    assert (np.nanmax(heights_of(tmp_path / "c.tif")) < 0.1) == is_known
+    line = (
+        f"{wet.sum()} points on or in water are left out of the surface model (classes {surface})"
+    )
+    assert (line in text + told) == is_known

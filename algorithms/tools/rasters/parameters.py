@@ -167,7 +167,8 @@ class SurfaceModel(ParameterSet):
         help="Only points of these classes make the surface, such as 41 for a water surface, or 2"
         " and 6 for terrain with buildings. Empty: all classes but low and high noise (7 and 18)"
         " and what lies in water (43 to 45); if the bottom of waters (40) is ground, their surfaces"
-        " (41 and 42) are left out, too.",
+        " (41 and 42) are left out, too. So are 27 to 31 if 26 is ground in point formats 0 to 5,"
+        " as NOAA writes.",
     )
     max_edge: float | None = parameter_of(Gaps, "max_edge", advanced=False)
     pit_free: bool = parameter(

@@ -10,6 +10,7 @@ import numpy as np
 
 from ...classes.ground_classes import ROADS_FLAG, GroundClasses, GroundCounts
 from ...classes.kept_classes import BOTTOM, NOISE, SUBMERGED, WATER_SURFACES
+from ...classes.point_counts import count_classes
 from ...core.errors import BareEarthError
 from ...core.files import Outputs, split_name
 from ...core.points import Box, Frame
@@ -26,7 +27,7 @@ from ...grids.cell_window import CellWindow
 from ...grids.cells import first_of_each
 from ...grids.expected_error import LOOKS
 from ...las.cloud import PointCloud, survey_frame
-from ...las.lasfile import LasFile
+from ...las.lasfile import FIRST_EXTENDED_FORMAT, LasFile
 from ...rasters.cell_grid import cell_grid
 from ...rasters.libraries import library_name
 from ...survey.shapes import Place
@@ -45,6 +46,9 @@ _MOST_THINNED = 10
 # Bytes that a block takes for each point in it and its buffer, and for each cell.
 _BYTES_A_POINT = 130.0
 _BYTES_A_CELL = 120.0
+# By how much the classes of topo-bathymetric lidar (40 to 45) are lower in files of NOAA that have
+# a point format of 0 to 5.
+_NOAA = 14
 
 
 # The flags of the ground of each look, if there were several.
@@ -57,6 +61,14 @@ class RasterCounts(GroundCounts):
 
     top: int = 0  # points of the surface
     excluded: int = 0  # ground points that the constraints exclude
+    # int64 (256,), points of classes of water that make no surface.
+    wet: np.ndarray = field(default_factory=lambda: np.zeros(256, dtype=np.int64))
+
+
+def _old(part: PointCloud, classes: Sequence[int]) -> list[int]:
+    """Return the classes that NOAA writes for those of water in point formats 0 to 5."""
+    is_extended = part.point_format >= FIRST_EXTENDED_FORMAT
+    return [] if is_extended else [value - _NOAA for value in classes]
 
 
 @dataclass(frozen=True)
@@ -155,7 +167,7 @@ class MakeRasters(Drawing, Sink):
         if not self.needs_all:
             # The others only show where the survey is.
             shown = ground | roads | self._thinned(part, shown & ~ground & ~roads)
-        top = shown & self.needs_surface & self._is_surface(part, ground)
+        top = shown & self.needs_surface & self._is_surface(part, ground, counts)
         counts.top += int(np.count_nonzero(top))
         return Marks(shown, ground, top, {ROADS_FLAG: roads, **self._looks(part, ground)})
 
@@ -170,24 +182,25 @@ class MakeRasters(Drawing, Sink):
             for number, name in enumerate(_LOOKS)
         }
 
-    def _is_surface(self, part: PointCloud, ground: np.ndarray) -> np.ndarray:
+    def _is_surface(self, part: PointCloud, ground: np.ndarray, counts: RasterCounts) -> np.ndarray:
         """Return which points are of the classes and returns of the surface."""
         if self.surface.surface_classes:
             surface = np.isin(part.classification, self.surface.surface_classes)
         else:
-            surface = ~np.isin(part.classification, self._left_out)
+            surface = ~np.isin(part.classification, self._left_out(part))
+            counts.wet += count_classes(part.classification[~surface])
         if self.surface.surface_returns == "first":
             # The first returns of pulses that reach the bottom of a water are of the water.
-            bottom = ground & (part.classification == BOTTOM)
+            bottom = ground & np.isin(part.classification, (BOTTOM, *_old(part, (BOTTOM,))))
             surface &= (part.return_number <= 1) | bottom
         return surface
 
-    @property
-    def _left_out(self) -> list[int]:
-        """Classes that make no surface, unless the user names them."""
+    def _left_out(self, part: PointCloud) -> list[int]:
+        """Return the classes that make no surface, unless the user names them."""
         # If the bottom is terrain, the water above it is no canopy.
-        under_water = BOTTOM in self.ground.ground_classes
-        return [*(WATER_SURFACES if under_water else ()), *SUBMERGED]
+        wet, classes = (*WATER_SURFACES, *SUBMERGED), self.ground.ground_classes
+        is_old = not {*_old(part, (BOTTOM,))}.isdisjoint(classes)
+        return [*(wet if BOTTOM in classes else SUBMERGED), *(_old(part, wet) if is_old else ())]
 
     def _thinned(self, part: PointCloud, shown: np.ndarray) -> np.ndarray:
         """Return one point of each cell of those that are shown."""
@@ -224,12 +237,12 @@ class MakeRasters(Drawing, Sink):
             raise BareEarthError(
                 f"{path} has no first returns to make a surface of. Take all returns instead."
             )
-        wet = 0 if self.surface.surface_classes else int(counts.classes[self._left_out].sum())
-        if self.needs_surface and wet:
+        if self.needs_surface and counts.wet.any():
             words = "point on or in water is", "points on or in water are"
-            classes = ", ".join(map(str, self._left_out))
+            classes = ", ".join(map(str, np.flatnonzero(counts.wet)))
             progress.info(
-                f"{counted(wet, *words)} left out of the surface model (classes {classes})."
+                f"{counted(int(counts.wet.sum()), *words)} left out of the surface model (classes"
+                f" {classes})."
             )
 
     def wanted(self, places: Sequence[BlockIndex], grid: BlockGrid) -> Sequence[BlockIndex]:
