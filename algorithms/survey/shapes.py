@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Iterator, NamedTuple, Sequence, Tuple, TypeVar
+from typing import Any, Iterator, NamedTuple, Sequence, Tuple, TypeVar, cast
 
 import numpy as np
 
@@ -81,7 +81,10 @@ def located(
         touches &= (boxes[:, 1] <= north + reach) & (boxes[:, 3] >= south - reach)
         if not touches.any():
             raise outside(words, box_round(boxes), place.name, place.box, near)
-    lost = area_lost([shape for shape in in_crs if isinstance(shape, tuple)])
+    polygons: list[tuple[np.ndarray, ...]] = [
+        shape for shape in cast(Sequence[Any], in_crs) if isinstance(shape, tuple)
+    ]
+    lost = area_lost(polygons)
     if lost:
         lost *= place.crs.horizontal_unit**2
         progress.warning(
