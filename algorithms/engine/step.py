@@ -190,6 +190,10 @@ class PointStep(Step):
         """Report on all files together, given the summaries of those that were written, and those
         without a point to write; or refuse all of them.
         """
+        if empty:
+            progress.info(
+                f"{len(empty):,} files are not written: they have no points to write in the area."
+            )
 
     def numbers(self, part: PointCloud, after: PointCloud, values: np.ndarray) -> dict[str, int]:
         """Count points of a part, before and after, for fields of the summary."""

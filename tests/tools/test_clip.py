@@ -90,7 +90,7 @@ def test_many_files_become_those_that_have_points_there(tmp_path):
     cut(tmp_path / "in", strip())
     extent = [EAST + 40.0, NORTH + 20.0, EAST + 190.0, NORTH + 60.0]
     code, told, errors = said(
-        "clip", tmp_path / "in", tmp_path / "out", "--extent", *extent, "--json"
+        "clip", tmp_path / "in", tmp_path / "out", "--extent", *extent, "--json", "--verbose"
     )
     assert code == 0, errors
     whole, parts = {}, {}
@@ -104,6 +104,7 @@ def test_many_files_become_those_that_have_points_there(tmp_path):
             assert folder.name == "in" or inside.all()
     assert whole.keys() == parts.keys() and len(parts) > 1
     assert all(np.array_equal(parts[name], whole[name]) for name in whole)
+    assert f"{6 - len(parts)} files are not written: they have no points to write" in errors
     assert (tmp_path / "out" / "clipped.vpc").is_file()
     assert sum(map(len, parts.values())) == json.loads(told)["point_count"]
 

@@ -129,12 +129,10 @@ class LabelGround(PointStep):
         """Tell which files have no ground and which classes stay, and warn if no point lies in the
         area or in the corrections; refuse files none of which has ground.
         """
-        if self.output.area_only and empty:
-            progress.info(
-                f"{len(empty):,} files are not written: they have no points to write in the area."
-            )
-        unwritten = () if self.output.area_only else empty
-        tell_of_groundless_files(done, unwritten, self.area is not None, progress)
+        if self.output.area_only:
+            super().tell_of_survey(done, empty, progress)
+            empty = ()
+        tell_of_groundless_files(done, empty, self.area is not None, progress)
         counts = PointCounts(overlap=sum(summary.overlap_count for summary in done))
         for summary in done:
             for value, count in summary.input_class_counts.items():
