@@ -11,6 +11,7 @@ import numpy as np
 from ..core.errors import BareEarthError
 from ..core.points import Box
 from ..core.progress import Progress
+from ..crs.system import Crs
 from ..las.cloud import PointCloud
 from ..las.records import check_class
 from ..survey.area import Area
@@ -40,8 +41,7 @@ class PointChooser:
         inside, near = self.inside(part), None
         if self.area is not None:
             counts.see(part)
-            box = self.area.buffered_box(self.context / part.crs.horizontal_unit)
-            near = Area(box).of(part)
+            near = self.near(part)
         by_hand = self.by_hand(part)
         selected = self.selection.choose(part, counts, near, by_hand)
         counts.inside += int(np.count_nonzero(inside))
@@ -63,6 +63,17 @@ class PointChooser:
     def inside(self, part: PointCloud) -> np.ndarray:
         """Return which points lie in the area; boolean, shape (n,)."""
         return np.ones(part.count, dtype=bool) if self.area is None else self.area.of(part)
+
+    def near(self, part: PointCloud) -> np.ndarray:
+        """Return which points lie in the area or near it, so that they take part; bool (n,)."""
+        box = self.box_near(part.crs)
+        return np.ones(part.count, dtype=bool) if box is None else Area(box).of(part)
+
+    def box_near(self, crs: Crs) -> Box | None:
+        """Return the box round the area in which points take part; None without an area."""
+        if self.area is None:
+            return None
+        return self.area.buffered_box(self.context / crs.horizontal_unit)
 
     def tell(self, counts: PointCounts, path: Path, progress: Progress) -> None:
         """Report how many points lie in the area and take part, after all points were counted;

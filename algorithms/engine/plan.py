@@ -71,7 +71,7 @@ class _PlannedBlock:
     def needs(self) -> frozenset[_PlannedBlock]:
         """The blocks of earlier steps that change classes, whose results this block needs."""
         box, plan = self._grid.window([self.place]), self._plan
-        tiles, blocks = plan.seen.touching(box), []
+        tiles, blocks = plan.shown.touching(box), []
         for number in filter(plan.gives_classes, range(self.step)):
             places = {place for tile in tiles for place in plan.places_of(tile, number)}
             blocks += [plan.block(number, place) for place in plan.grids[number].among(places, box)]
@@ -100,8 +100,11 @@ class Plan:
         steps: Sequence[PointStep],
         folder: Path,
         progress: Progress = SILENT,
+        has_sinks: bool = False,
     ) -> None:
         self.steps, self.folder, self._targets = steps, folder, targets
+        # Whether sinks need results that the outputs do not have.
+        self._shows_more = has_sinks and any(step.shows_more for step in steps)
         frame = survey_frame(survey.crs)
         self.grids = [BlockGrid(frame, step, survey.stated) for step in steps]
         # Taken before any file is read.
@@ -115,13 +118,15 @@ class Plan:
         # Files without a point to write, as their headers show.
         self.empty = [tile for tile in survey.tiles if any(step.skips(tile) for step in steps)]
         skipped = {tile.path for tile in self.empty}
-        self.seen = dataclasses.replace(
-            survey, tiles=tuple(tile for tile in survey.tiles if tile.path not in skipped)
+        seen = [tile for tile in survey.tiles if tile.path not in skipped]
+        # The points of the others take part only in the first step.
+        self.shown = dataclasses.replace(
+            survey,
+            tiles=tuple(t for t in survey.tiles if not any(step.is_far(t) for step in steps)),
         )
-        # The points of these files take part only in the first step.
-        self.surveys = [survey, *[self.seen] * (len(steps) - 1)]
+        self.surveys = [survey, *[self.shown] * (len(steps) - 1)]
         self.todo: list[LasFile] = []  # the files that are to be done
-        for number, tile in enumerate(self.seen.tiles, start=1):
+        for number, tile in enumerate(seen, start=1):
             try:
                 for step in steps:
                     step.check_tile(tile)
@@ -129,7 +134,7 @@ class Plan:
                 self.todo.append(tile)
             except BareEarthError as error:
                 self.failures[tile.path] = str(error)
-            progress(number / len(self.seen.tiles))
+            progress(number / len(seen))
 
     def gives_classes(self, number: int) -> bool:
         """Return whether a step changes classes, so that later steps need its results."""
@@ -226,6 +231,7 @@ class Plan:
     def _missing(self) -> dict[tuple[int, BlockIndex], _PlannedBlock]:
         """Return the blocks whose results are needed but do not exist, sorted by their keys."""
         todo = {block for tile in self.todo for block in self._wanted(tile)}
+        todo.update(block for tile in self._only_shown() for block in self._with_classes(tile))
         missing = {}
         while todo:
             block = todo.pop()
@@ -247,11 +253,21 @@ class Plan:
 
     def files_kept(self) -> list[Path]:
         """Return the results of blocks that rasters need after all files are written."""
-        return [block.file for tile in self.todo for block in self._with_classes(tile)]
+        tiles = [*self.todo, *self._only_shown()]
+        return [block.file for tile in tiles for block in self._with_classes(tile)]
 
-    def results(self, outputs: Survey) -> Results:
-        """Return where to read the points that rasters are made from."""
-        inputs = {self._targets[tile.path].name: tile for tile in self.seen.tiles}
+    def _only_shown(self) -> list[LasFile]:
+        """Return the files that are not to be done, but whose results sinks need."""
+        if not self._shows_more:
+            return []
+        others = {tile.path for tile in self.todo}.union(self.failures)
+        return [tile for tile in self.shown.tiles if tile.path not in others]
+
+    def results(self, outputs: Survey, empty: Iterable[LasFile]) -> Results:
+        """Return where to read the points that rasters are made from, given the files that were
+        written, and those without a point to write.
+        """
+        inputs = {self._targets[tile.path].name: tile for tile in self.shown.tiles}
         needed, read_from = set(), {}
         for output in outputs.tiles:
             tile = inputs[output.path.name]
@@ -260,7 +276,15 @@ class Plan:
             if all(block.file.exists() for block in blocks):
                 read_from[output.path] = tile
                 needed.update(blocks)
-        return Results(outputs, read_from, self._files_of(needed))
+        shown, unwritten = {tile.path for tile in self.shown.tiles}, []
+        for tile in empty if self._shows_more else ():
+            blocks = self._with_classes(tile)
+            if tile.path in shown and all(block.file.exists() for block in blocks):
+                read_from[tile.path] = tile
+                needed.update(blocks)
+                unwritten.append(tile)
+        survey = dataclasses.replace(outputs, tiles=(*outputs.tiles, *unwritten))
+        return Results(survey, read_from, self._files_of(needed))
 
 
 def block_jobs(
@@ -299,7 +323,7 @@ class Results:
         inputs: Mapping[Path, LasFile] = MappingProxyType({}),
         earlier: tuple[BlockFiles, ...] = (),
     ) -> None:
-        self._survey, self._inputs, self.earlier = survey, inputs, earlier
+        self.survey, self._inputs, self.earlier = survey, inputs, earlier
         self.read_from = {tile.path: inputs.get(tile.path, tile).path for tile in survey.tiles}
         self.finished = frozenset(self.read_from) - inputs.keys()
 
@@ -307,7 +331,7 @@ class Results:
         self, unpacking: Unpacking | None = None, progress: Progress = SILENT
     ) -> Iterator[PointCloud]:
         """Yield the points of all files, part by part."""
-        tiles = self._survey.tiles
+        tiles = self.survey.tiles
         for tile, part in zip(tiles, progress.shares(*[1.0] * len(tiles))):
             las, values = self._inputs.get(tile.path, tile), []
             if tile.path in self._inputs:

@@ -42,6 +42,7 @@ def run_sink(
     # The results of blocks are written into `folder`, which exists and which all workers see.
     # Results that a cancelled or killed run left there are used if nothing has changed.
     results = results or Results(survey)
+    tiles, survey = survey.tiles, results.survey
     frame = survey_frame(survey.crs, step.origin)
     reading, progress = progress.part(0.0, 0.05), progress.part(0.05, 1.0)
     step = step.seeing(partial(results.parts, unpacking, reading), frame, reading)
@@ -78,7 +79,7 @@ def run_sink(
         of_blocks = [result for file in files.values() for result in step.load(file)]
         with contextlib.ExitStack() as opened:
             outputs = outputs or opened.enter_context(Outputs())
-            return step.finish(of_blocks, frame, outputs, progress.part(0.8, 1.0), survey.tiles)
+            return step.finish(of_blocks, frame, outputs, progress.part(0.8, 1.0), tiles)
     except Cancelled:
         is_cancelled = True
         raise

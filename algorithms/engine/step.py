@@ -184,6 +184,15 @@ class PointStep(Step):
         """Return whether the header of a file shows that none of its points is to be written."""
         return False
 
+    @property
+    def shows_more(self) -> bool:
+        """Whether later steps see results that are not written."""
+        return False
+
+    def is_far(self, tile: LasFile) -> bool:
+        """Return whether the header of a file shows that later steps need none of its points."""
+        return self.skips(tile)
+
     def tell_of_survey(
         self, done: Sequence[Any], empty: Sequence[LasFile], progress: Progress
     ) -> None:

@@ -118,8 +118,9 @@ class ManyFiles(Execution):
         progress = self.progress.part(0.02, 0.98)
         resume, (_, records, waiting) = self.output.resume, folders_of(folder)
         plan = Plan(
-            self._survey, self._targets, self._point_steps, waiting, progress.part(0.0, 0.02)
-        )
+            self._survey, self._targets, self._point_steps, waiting, progress.part(0.0, 0.02),
+            has_sinks=bool(self._sinks),
+        )  # fmt: skip
         with write_errors_told(folder):
             folder.mkdir(parents=True, exist_ok=True)
             make_work_folder(records)
@@ -159,7 +160,7 @@ class ManyFiles(Execution):
         if self._done and self._sinks:
             paths = [folder / summary.name for summary in self._done]
             written = open_survey(Inputs(paths).read_as(self._survey.stated), progress.quiet())
-            results, part = plan.results(written), progress.part(end, 1.0)
+            results, part = plan.results(written, empty), progress.part(end, 1.0)
             self._run_sinks(written, waiting, workers, part, results, unpacking)
 
     def _run_sinks(

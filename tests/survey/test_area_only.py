@@ -6,7 +6,16 @@ import laspy
 import numpy as np
 import pytest
 from runs import FAST, Heard
-from surveys import bytes_of, cut, finished, points_of, strip, write
+from surveys import (
+    bytes_of,
+    cut,
+    finished,
+    heights_of,
+    points_of,
+    strip,
+    write,
+    write_points,
+)
 
 from bare_earth import BareEarthError, classify
 from bare_earth.algorithms.cli import main
@@ -193,3 +202,59 @@ def test_corrections_that_meet_no_point_are_told_once(inputs, tmp_path):
             classify(source, out, method="slope", corrections=known, progress=progress)
             told = [text for text in progress.warnings if "polygons of the corrections" in text]
             assert len(told) == count
+
+
+def hall(folder):
+    """Write a hall on even land, as one file and as four; the middle of the hall is in them all."""
+    x, y = np.random.default_rng(4).uniform(0, 120, (2, 20_000))
+    z = 50 + 0.03 * x + 0.2 * np.sin(y / 7) + 8.0 * np.all(np.abs([x - 60, y - 60]) < 16, axis=0)
+    write_points(folder / "one.laz", x, y, z)
+    (folder / "in").mkdir()
+    for number in range(4):
+        part = 2 * (x > 60) + (y > 60) == number
+        write_points(folder / "in" / f"{number}.laz", x[part], y[part], z[part])
+    return folder
+
+
+def test_the_terrain_of_an_area_that_cuts_a_building_is_that_of_the_whole(tmp_path):
+    folder, whole, (west, south) = hall(tmp_path), tmp_path / "whole.tif", (EAST, NORTH)
+    classify(folder / "one.laz", folder / "whole.laz", dtm=whole)
+    expected = heights_of(whole)[120 - 59 : 120 - 20, 20:59]
+    assert np.isfinite(expected).all()
+    # It ends on the roof, so that all ground beyond lies outside, and in other files.
+    area = {"extent": (west + 20, south + 20, west + 59, south + 59)}
+    before = laspy.read(folder / "one.laz").classification
+    for only in (False, True):
+        made = []
+        for source, target in (("one.laz", f"{only}.laz"), ("in", f"{only}")):
+            dtm, out = tmp_path / f"{target}.tif", tmp_path / target
+            classify(folder / source, out, dtm=dtm, **area, area_only=only)
+            made.append(dtm)
+            if source == "in":
+                assert sorted(bytes_of(out)) == [f"{n}.laz" for n in range(1 if only else 4)]
+                # Of a run that goes on, too.
+                dtm, points = tmp_path / f"{target}-again.tif", bytes_of(out)
+                summary = classify(
+                    folder / source, out, dtm=dtm, **area, area_only=only, resume=True
+                )
+                assert summary.kept_count == len(points) and bytes_of(out) == points
+                made.append(dtm)
+        found = heights_of(made[0])
+        assert found.shape == expected.shape and np.abs(found - expected).max() < 0.01
+        assert len({path.read_bytes() for path in made}) == 1
+    # The points outside keep their class all the same.
+    written = laspy.read(tmp_path / "False.laz")
+    outside = (written.x > west + 59) | (written.y > south + 59)
+    assert np.array_equal(written.classification[outside], before[outside])
+    assert np.count_nonzero(written.classification == 2) > 1000
+
+
+def test_heights_beside_the_border_are_above_the_ground_round_the_area(tmp_path):
+    folder, (west, south) = hall(tmp_path), (EAST, NORTH)
+    # On the roof alone: all ground lies outside.
+    area = {"extent": (west + 50, south + 50, west + 70, south + 70), "area_only": True}
+    for source, target in (("one.laz", "out.laz"), ("in", "out")):
+        classify(folder / source, tmp_path / target, **area, height_above_ground=True)
+        files = [tmp_path / target] if source == "one.laz" else finished(tmp_path / target)
+        for path in files:
+            assert np.abs(laspy.read(path)["HeightAboveGround"] - 8.0).max() < 1.0

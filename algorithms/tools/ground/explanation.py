@@ -15,6 +15,7 @@ from ...filters.method import NOT_GROUND, Decisions
 from ...grids.cells import cells_at
 from ...rasters.geotiff import RasterGrid
 from ...rasters.writing import write_geotiff
+from ...survey.area import Area
 
 # What the description of the band begins with; a list of the rules follows.
 _MEANING = f"rule that decided (+{NOT_GROUND}: not ground): "
@@ -71,9 +72,13 @@ class ExplainedCells(NamedTuple):
 
 
 def write_explanation(
-    path: Path, blocks: Sequence[ExplainedCells], frame: Frame, progress: Progress
+    path: Path,
+    blocks: Sequence[ExplainedCells],
+    frame: Frame,
+    progress: Progress,
+    area: Area | None = None,
 ) -> None:
-    """Write the codes of all cells as a raster whose band lists the names of rules."""
+    """Write the codes of all cells in an area as a raster whose band lists the names of rules."""
     parts = [part for part in blocks if part.code.any()]
     if not parts:
         raise BareEarthError(
@@ -83,7 +88,13 @@ def write_explanation(
     size, rules = min(part.size for part in parts), parts[0].rules
     finest = (part.in_cells_of(size)[:3] for part in parts)
     row, column, code = (np.concatenate(values) for values in zip(*finest))
-    middles = Points((column + 0.5) * size, (row + 0.5) * size, np.zeros(len(code)))
+    x, y = (column + 0.5) * size, (row + 0.5) * size
+    if area is not None:
+        inside = area.scaled(frame.horizontal_unit, frame.origin).contains(x, y)
+        if not inside.any():  # the area lies between the centres of cells
+            inside[:] = True
+        x, y, row, column, code = (values[inside] for values in (x, y, row, column, code))
+    middles = Points(x, y, np.zeros(len(code)))
     grid = RasterGrid.over(middles, frame, size)
     cells = np.zeros((grid.rows, grid.columns), dtype=np.uint8)
     cells[row.max() - row, column - column.min()] = code

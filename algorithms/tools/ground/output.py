@@ -23,10 +23,9 @@ class Output(ParameterSet):
         False,
         label="Write points of the area only",
         advanced=True,
-        help="Writes only the points inside the extent and the boundary, and makes the rasters"
-        " from them. Files without such points are not written. If this is off, all files are"
-        " written with all their points, and points outside keep their class. In QGIS, it is on for"
-        " remote points.",
+        help="Writes only the points inside the extent and the boundary. Files without such points"
+        " are not written. If this is off, all files are written with all their points, and points"
+        " outside keep their class. In QGIS, it is on for remote points.",
     )
     height_above_ground: bool = parameter(
         False,
@@ -47,14 +46,9 @@ class Output(ParameterSet):
     )
 
     @property
-    def needs_ground(self) -> bool:
-        """Whether nothing can be written without ground."""
-        return self.ground_only or self.height_above_ground
-
-    @property
     def changes_points(self) -> bool:
         """Whether more than the classes changes."""
-        return self.needs_ground or self.area_only
+        return self.ground_only or self.height_above_ground or self.area_only
 
     def check_area(self, is_given: bool) -> None:
         """Refuse to write only the area if there is no area."""

@@ -24,6 +24,7 @@ from ...engine.step import Allocate, PointResult, PointStep, Step, with_classes
 from ...engine.store import Marks, Store
 from ...filters import method_of
 from ...las.cloud import PointCloud
+from ...las.crs_records import read_crs
 from ...las.edits import Edits
 from ...las.lasfile import LasFile
 from ...las.return_numbers import MULTI_RETURN, SeveralReturns
@@ -75,18 +76,22 @@ class LabelGround(PointStep):
         return not (self.output.changes_points or self.selection.remember_classes)
 
     def marks(self, part: PointCloud, counts: PointCounts) -> Marks:
-        """Return which points take part, are known ground, and lie in the area."""
-        inside, selected, known = self.chooser.choose(part, counts)
-        return Marks(selected, known, inside, {MULTI_RETURN: SeveralReturns(part)})
+        """Return which points take part, are known ground, and get a label."""
+        _, selected, known = self.chooser.choose(part, counts)
+        return Marks(selected, known, self.chooser.near(part), {MULTI_RETURN: SeveralReturns(part)})
 
     def applied(self, part: PointCloud, values: np.ndarray) -> PointCloud:
-        """Return points with their new classes; points that are not written become withheld."""
-        return self.decided(part, values, self.chooser.inside(part), self.chooser.by_hand(part))
+        """Return points with their new classes, also those near the area: they keep their class
+        where they are written, but rasters and heights in the area need the ground round it.
+        """
+        return self.decided(part, values, self.chooser.near(part), self.chooser.by_hand(part))
 
     def decided(
         self, part: PointCloud, values: np.ndarray, inside: np.ndarray, by_hand: ByHand | None
     ) -> PointCloud:
-        """Return points as `applied`, given those in the area and those set by hand."""
+        """Return points with their new classes, given those that change, and those set by hand; if
+        only the area is written, the others become withheld.
+        """
         labels = label_of(values)
         ground, low, decks, high = (labels == label for label in Label)
         classes = self.selection.classes(part, ground, low, inside, decks, by_hand, high)
@@ -104,6 +109,18 @@ class LabelGround(PointStep):
     def check_tile(self, tile: LasFile) -> None:
         """Refuse a file whose points cannot hold the classes."""
         self.chooser.check_classes(tile.path, tile.point_format)
+
+    @property
+    def shows_more(self) -> bool:
+        """Whether later steps see classes of points near the area that are not written."""
+        return self.area is not None
+
+    def is_far(self, tile: LasFile) -> bool:
+        """Return whether only the area is written, and no point of a file lies near it."""
+        if not self.output.area_only:
+            return False
+        box = self.chooser.box_near(read_crs(tile))
+        return box is not None and not Area(box).may_touch(tile.outer_box)
 
     @property
     def writes_all(self) -> bool:
@@ -181,7 +198,8 @@ class LabelGround(PointStep):
     ) -> None:
         """Write the raster of rules, if it is wanted."""
         if self.explain is not None:
-            write_explanation(raster_file(outputs, self.explain), result, frame, progress)
+            path = raster_file(outputs, self.explain)
+            write_explanation(path, result, frame, progress, self.area)
 
     def result(self, path: Path, allocate: Allocate) -> ClassifiedPoints:
         """Return an object that counts the classified points of a file."""
@@ -221,7 +239,7 @@ class ClassifiedPoints(PointResult):
             if self._step.output.ground_only:
                 self.kept[where] &= ground
         labels = label_of(values)
-        self._has_ground |= bool((labels == Label.GROUND).any())
+        self._has_ground |= bool(((labels == Label.GROUND) & inside).any())
         if by_hand is not None:
             self._by_hand_count += int(np.count_nonzero(by_hand.known & inside))
         self._ground_count += int(np.count_nonzero(ground))
@@ -250,14 +268,13 @@ class ClassifiedPoints(PointResult):
 
     def tell(self, progress: Progress) -> None:
         """Report the numbers of outliers and of points on bridges in the area; refuse one file
-        without ground if nothing can be written.
+        without ground if only ground is written.
         """
         selection, output = self._step.selection, self._step.output
-        if output.needs_ground and not self._written_ground_count:
+        if output.ground_only and not self._written_ground_count:
             raise BareEarthError(
-                f"{self._path} has no ground points, so there are no ground points to write,"
-                " and no heights above ground. Check the parameters and the selection of"
-                " points."
+                f"{self._path} has no ground points, so that there is nothing to write. Check the"
+                " parameters and the selection of points."
             )
         if selection.low_noise_class:
             progress.info(

@@ -103,7 +103,8 @@ _AREA = Input(
     "area",
     "area",
     help="Only points in {area} are classified, and rasters have data only there. Points outside"
-    " keep their class, but those nearby help to judge. Empty: all points.",
+    " keep their class, but those nearby help to judge, and their ground helps along the border of"
+    " rasters. Empty: all points.",
 )
 TOOL = MapTool(
     # Behind the parameters of the method.
