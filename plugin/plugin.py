@@ -148,10 +148,7 @@ class BareEarthPlugin:
         bar = self._iface.messageBar()
         message = bar.createMessage(
             _MENU,
-            tr(
-                "Ready. Compressed point clouds (.laz) need one more package, which is"
-                " installed only once."
-            ),
+            tr("Ready. Point clouds in .laz need one more package."),
         )
         buttons = {
             tr("LAZ support…"): self.show_laz_support,

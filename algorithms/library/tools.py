@@ -117,8 +117,9 @@ def arguments_of(declared: Input) -> tuple[Argument, ...]:
     if declared.kind == "crs":
         return (arguments.CRS,)
     if declared.kind == "clouds":
-        sources = CLASSIFIED if declared.help else arguments.SOURCES
-        return (replace(sources, name=declared.name),)
+        if declared.name == "source":  # as the function had it when it took one file
+            return (replace(arguments.SOURCES, name=declared.name),)
+        return (CLASSIFIED if declared.help else arguments.SOURCES,)
     kind = "text" if declared.kind == "address" else declared.kind
     kind = kind if kind in KINDS else "path"
     is_required = not declared.optional and kind not in ("extent", "words")

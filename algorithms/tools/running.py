@@ -90,6 +90,8 @@ def _run_on_points(
         for output, part in zip(drawings, drawing):
             path, lines = paths[output.drawn_of], {"output": outputs[output.name]}
             source = virtual[path] if pending is None else pending.waiting(path)
+            if not source.exists():  # of files without points there is no raster
+                continue
             drawing_tool = file_tool(output.drawn_by)
             summaries[output.name] = _run_on_files(
                 drawing_tool, {"source": source}, lines, sets, part, pending

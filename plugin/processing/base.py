@@ -303,8 +303,9 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
             has_failed = False
             feedback.pushInfo(self.cancelled)
         finally:
-            if not results:
-                do_not_load(context, set(context.layersToLoadOnCompletion()) - before)
+            loaded = set(context.layersToLoadOnCompletion()) - before
+            # Of a file without points, no rasters are made.
+            do_not_load(context, {path for path in loaded if not (results and _exists(path))})
             progress.end(self.class_counts if results else {}, has_failed)
             self._arrange(results, context, progress.commands)
         return results
@@ -339,6 +340,11 @@ def words_in(groups: Iterable[str]) -> list[str]:
     """Return the words of groups, separated by commas, in English and the user's language."""
     words = (word for group in groups for text in (group, tr(group)) for word in text.split(","))
     return list(dict.fromkeys(words))
+
+
+def _exists(source: str) -> bool:
+    """Return whether the file of a layer exists; a GeoPackage can name a layer behind a bar."""
+    return Path(source.partition("|")[0]).exists()
 
 
 def _plain(text: str) -> str:

@@ -14,7 +14,7 @@ from ..styles import clouds, layers
 from ..styles.rasters import is_class_raster
 from .base import BareEarthAlgorithm
 from .feedback import FeedbackProgress
-from .outputs import class_raster_of
+from .outputs import cannot_show, class_raster_of
 
 # Side of a cell of a raster in metres, unless the run has rasters of its own.
 _USUAL_CELL = 1.0
@@ -42,7 +42,7 @@ def show_classified(
         if is_virtual:
             _load_virtual(algorithm, cloud, classes, context)
         return
-    progress.info(f"This QGIS cannot show such a file as a layer. It is at {cloud}.")
+    progress.info(cannot_show(cloud))
     shown = [] if is_virtual else classes
     show_class_raster(algorithm, cloud, shown, ground_class, context, progress, hides, cells)
 

@@ -71,9 +71,8 @@ class FeedbackProgress(Progress):
         self._feedback.pushInfo(text)
 
     def choice(self, text: str) -> None:
-        """Write a line into the log, and again at its end."""
+        """Store a line for the end of the log."""
         self._choices.append(text)
-        self.info(text)
 
     def warning(self, text: str) -> None:
         """Write a highlighted line into the log."""

@@ -21,7 +21,7 @@ from .feedback import Refusal
 
 # As a name, so that the widget is imported only in dialogs, not in qgis_process.
 _CHECK_WIDGET = f"{__package__}.widgets.CheckWidget"
-_SYMBOLS = {"deg": "°"}
+_SYMBOLS = {"deg": "°", "m2": "m²"}
 _LISTS = ("numbers", "integers")
 _FEWEST_DECIMALS = 3
 # Most choices that the help explains; it only names those of longer lists.

@@ -37,7 +37,7 @@ from .base import BareEarthAlgorithm, Options, command_line
 from .classified import show_class_raster
 from .feedback import FeedbackProgress, Refusal
 from .inputs import ignored_filter
-from .outputs import after_cancel, do_not_load, is_blank, point_cloud_formats
+from .outputs import after_cancel, cannot_show, do_not_load, is_blank, point_cloud_formats
 from .remote import LIMIT, add_remote
 from .tool_inputs import Given, Request, add_input, given, part_of
 
@@ -274,7 +274,7 @@ class ToolAlgorithm(BareEarthAlgorithm):
             do_not_load(context, [path])
             return str(Path(path).with_name(split_name(Path(path))[0]))
         if not compat.can_load(path):
-            progress.info(f"This QGIS cannot show such a file as a layer. It will be at {path}.")
+            progress.info(cannot_show(path, "will be"))
         return path
 
     def _command(self, paths: dict[str, str], chosen: list[ParameterSet]) -> str:
@@ -406,7 +406,7 @@ class PointToolAlgorithm(ToolAlgorithm):
             if compat.can_load(output):
                 compat.load_point_cloud(output, context)
             else:
-                progress.info(f"This QGIS cannot show such a file as a layer. It is at {output}.")
+                progress.info(cannot_show(output))
         numbers = _numbers_of(found, [name for name, _ in self._tool.numbers])
         self.class_counts = found.class_counts
         self.show(output, self._look(chosen, found, numbers))

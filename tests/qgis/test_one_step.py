@@ -269,3 +269,22 @@ def test_by_qgis_process(scene, tmp_path, qgis_process):
     assert done.returncode == 0, done.stderr
     results = json.loads(done.stdout[done.stdout.index("{") :])["results"]
     assert results["DTM"] == paths["DTM"] and results["POINT_COUNT"] == scene.count
+
+
+def test_what_is_not_made_of_a_file_without_points_is_not_loaded(tmp_path, context):
+    import processing
+
+    from bare_earth.plugin import compat
+
+    empty, log = tmp_path / "empty.las", Log()
+    laspy.LasData(laspy.LasHeader(point_format=6, version="1.4")).write(str(empty))
+    project = QgsProject.instance()
+    context.setProject(project)
+    outputs = {
+        name: QgsProcessingOutputLayerDefinition(path, project)
+        for name, path in everything(tmp_path).items()
+    }
+    processing.run(ALL_IN_ONE, {"INPUT": str(empty), **outputs}, context=context, feedback=log)
+    assert "holds no points" in log.text
+    loaded = [path for path in context.layersToLoadOnCompletion() if not os.path.exists(path)]
+    assert loaded == [] and (compat.can_load("x.laz") or "cannot show" in log.text)

@@ -221,7 +221,7 @@ def test_the_menu_opens_the_dialog_with_which_users_begin(qgis):
         answer["titles"] = [widget.windowTitle() for widget in shown]
         """
     )
-    assert "Point Cloud to Terrain" in " ".join(answer["titles"]).title()
+    assert "Point cloud to terrain" in answer["titles"]
 
 
 def test_the_menu_opens_the_documentation_in_the_plugin(qgis):
