@@ -50,7 +50,7 @@ class PointChooser:
 
     def check_classes(self, path: Path, point_format: int) -> None:
         """Refuse a file whose point format cannot hold the classes that the user chose."""
-        by_hand = [(value, "a correction") for value in self.corrections.classes]
+        by_hand = [(value, "a correction") for value in self.corrections.exact]
         ground, bridges = self.selection.to_class, self.selection.bridge_class
         for value, name in ((ground, "the ground"), (bridges, "bridges"), *by_hand):
             if value is not None:
@@ -97,8 +97,8 @@ class PointChooser:
         return outside("the area", cast(Area, self.area).bounds, of, box)
 
     def tell_of_corrections(self, progress: Progress) -> None:
-        """If there are polygons of corrections, warn that no point gets its class from them."""
-        if self.corrections.polygons:
+        """If polygons of corrections set classes, warn that no point gets its class from them."""
+        if self.corrections.exact:
             progress.warning(
                 "No point gets its class from the polygons of the corrections. Give them in the"
                 " CRS of the points."

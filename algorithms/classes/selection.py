@@ -14,7 +14,7 @@ from ..core.words import counted
 from ..las.cloud import PointCloud
 from ..las.extrabytes import REMEMBERED
 from ..las.return_numbers import FROM_ZERO
-from .corrections import ByHand, Corrections, changed_since
+from .corrections import DEMOTED, ByHand, Corrections, changed_since
 from .kept_classes import (
     ALL_CLASSES,
     DECIDED,
@@ -206,6 +206,8 @@ class Selection(ParameterSet):
         if part.remembered is None and not corrections.polygons:
             return None
         of_polygons = corrections.classes_of(part)
+        demoted = self._eligible(part, None) & (of_polygons == DEMOTED)
+        of_polygons[demoted] = UNCLASSIFIED
         # Points may get a class by hand that keep theirs by default.
         corrected = self._of_classes(part, self.from_classes or ALL_CLASSES, None)
         corrected &= of_polygons >= 0

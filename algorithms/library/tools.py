@@ -77,7 +77,8 @@ def _of_file_tool(command: str) -> Function:
     tool = file_tool(command)
     given = [argument for declared in tool.inputs for argument in arguments_of(declared)]
     given += map(arguments.of_output, tool.outputs)
-    if any(declared.kind in ("cloud", "clouds") for declared in tool.inputs):
+    needed = (declared.kind for declared in tool.inputs if not declared.optional)
+    if any(kind in ("cloud", "clouds") for kind in needed):
         given += arguments.REMOTE
 
     def run(values: SimpleNamespace, sets: Sequence[ParameterSet]) -> object:
@@ -121,7 +122,8 @@ def arguments_of(declared: Input) -> tuple[Argument, ...]:
             return (replace(arguments.SOURCES, name=declared.name),)
         return (CLASSIFIED if declared.help else arguments.SOURCES,)
     kind = "text" if declared.kind == "address" else declared.kind
-    kind = kind if kind in KINDS else "path"
+    is_local = kind not in KINDS or (kind == "cloud" and declared.optional)  # never downloaded
+    kind = "path" if is_local else kind
     is_required = not declared.optional and kind not in ("extent", "words")
     default = REQUIRED if is_required else None
     return (Argument.of(declared.name, kind, declared.help, default),)

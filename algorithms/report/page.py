@@ -183,50 +183,6 @@ def bars(name: str, counts: Sequence[int], colours: Sequence[str], ticks: Sequen
     )
 
 
-def line_chart(
-    name: str,
-    along: np.ndarray,
-    values: np.ndarray,
-    band: tuple[np.ndarray, np.ndarray],
-    colours: tuple[str, str],
-    units: tuple[str, str],
-) -> Html:
-    """Return a chart of a line of values (NaN for gaps) on a band between two others."""
-    known = np.concatenate([heights[np.isfinite(heights)] for heights in (*band, values)])
-    if not len(known):
-        return Html("")
-    low, high, length = float(known.min()), float(known.max()), float(along[-1]) or 1.0
-    x = along / length * _WIDTH
-    lower, upper, middle = (
-        _HEIGHT * (1.0 - (heights - low) / max(high - low, 1e-6)) for heights in (*band, values)
-    )
-    filled, line = [], []
-    for part in _runs(np.isfinite(lower + upper)):
-        there = np.concatenate((x[part], x[part][::-1]))
-        filled.append(_path(there, np.concatenate((upper[part], lower[part][::-1]))) + "Z")
-    for part in _runs(np.isfinite(middle)):
-        line.append(_path(x[part], middle[part]))
-    (stroke, area), (across, up) = colours, units
-    return _svg(
-        name,
-        (-10, -20, _WIDTH + 20, _HEIGHT + _BELOW + 20),
-        f'<path d="{"".join(filled)}" fill="{area}" fill-opacity="0.35"/>'
-        f'<path d="{"".join(line)}" fill="none" stroke="{stroke}" stroke-width="2"/>'
-        f'<g font-size="12" fill="#333">{_label(0, _HEIGHT + 18, f"0 to {length:.4g} {across}")}'
-        f"{_label(0, -6, f'{low:.2f} to {high:.2f} {up}')}</g>",
-    )
-
-
-def _runs(known: np.ndarray) -> list[slice]:
-    """Return the runs of values that are known."""
-    ends = np.flatnonzero(np.diff(np.concatenate(([False], known, [False]))))
-    return [slice(start, end) for start, end in ends.reshape(-1, 2).tolist()]
-
-
-def _path(x: np.ndarray, y: np.ndarray) -> str:
-    return "M" + "L".join(f"{a:.1f} {b:.1f}" for a, b in zip(x.tolist(), y.tolist()))
-
-
 class Mark(NamedTuple):
     """A place on a map, in its coordinates, with a title that is shown under the mouse."""
 

@@ -23,8 +23,9 @@ _Feature = Tuple[Any, _Attributes]
 _INVALID = (
     ValueError, TypeError, KeyError, IndexError, AttributeError, RecursionError, OverflowError
 )  # fmt: skip
-# The attribute of a polygon that holds its class.
+# The attributes of a polygon that hold its class, and the answer of who looked at it.
 CLASS_FIELD = "class"
+ANSWER_FIELD = "answer"
 # For the help of options.
 FORMATS = (
     "GeoPackage, GeoJSON, shapefile and others, which pyogrio reads; if the file states its CRS, it"
@@ -60,13 +61,13 @@ def read_boundary(source: object, may_be_empty: bool = False) -> tuple[Polygon, 
     return _shapes(source, "Polygon", lambda rings, _: _polygon(rings), may_be_empty)
 
 
-def read_polygons_with_classes(source: object) -> tuple[Shapes, tuple[Any, ...]]:
-    """Read the polygons of a source with their classes, and no other geometries."""
+def read_polygons_with_attributes(source: object) -> tuple[Shapes, tuple[_Attributes, ...]]:
+    """Read the polygons of a source with all of their attributes, and no other geometries."""
     pairs = _shapes(
-        source, "Polygon", lambda rings, values: (_polygon(rings), values.get(CLASS_FIELD))
+        source, "Polygon", lambda rings, values: (_polygon(rings), values), attribute=None
     )
-    polygons, classes = zip(*pairs)
-    return Shapes(polygons, pairs.crs, pairs.source), classes
+    polygons, attributes = zip(*pairs)
+    return Shapes(polygons, pairs.crs, pairs.source), attributes
 
 
 def read_lines(source: object, may_be_empty: bool = False) -> tuple[np.ndarray, ...]:
@@ -78,7 +79,9 @@ def read_points(source: object) -> tuple[tuple[np.ndarray, dict[str, Any]], ...]
     """Read x, y and z of the points of a source, float64 (3,) with NaN for a missing z, and all of
     their attributes.
     """
-    return _shapes(source, "Point", lambda place, attributes: (_line([place])[0], attributes))
+    return _shapes(
+        source, "Point", lambda place, values: (_line([place])[0], values), attribute=None
+    )
 
 
 def _shapes(
@@ -86,6 +89,7 @@ def _shapes(
     kind: str,
     shape_of: Callable[[Any, _Attributes], Sized],
     may_be_empty: bool = False,
+    attribute: str | None = CLASS_FIELD,  # the one that is read from a file; None for all
 ) -> Shapes:
     """Return what `shape_of` makes of coordinates and attributes of geometries of a kind."""
     word, crs = _WORDS[kind], None
@@ -95,7 +99,7 @@ def _shapes(
             label, (features, crs) = FRAME, _of_frame(source, kind)
         elif isinstance(source, (str, PathLike)):
             label = str(source)
-            features, crs = read_features(label, kind, None if kind == "Point" else CLASS_FIELD)
+            features, crs = read_features(label, kind, attribute)
         elif (content := _geojson_of(source)) is not None:
             label, (features, crs) = _GEOMETRY, _of_geojson(content, kind)
         else:

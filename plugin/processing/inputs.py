@@ -357,23 +357,23 @@ def layer_shapes(
     context: QgsProcessingContext,
     crs: CloudCrs,
     kind: Qgis.ProcessingSourceType = compat.POLYGONS,
-    attribute: str = "",
+    attributes: Sequence[str] = (),
     may_be_empty: bool = True,
 ) -> tuple[tuple[Any, Any], ...]:
     """Return the polygons (rings, float64 (n, 2)) or lines (x, y, and z or NaN, (n, 3)) of the
-    layer in a field, in the CRS of the points, and an attribute of each.
+    layer in a field, in the CRS of the points, and attributes of each, by name.
     """
     # Geometries of other kinds are not used; a layer with only these is refused, and an empty one
     # unless it may be empty.
     source = algorithm.parameterAsSource(parameters, name, context)
     shape, corners_of, refusal = _KINDS[kind]
-    attributes, found, others = [attribute] if attribute else [], [], 0
-    for feature in features_of(source, label, crs.value, context, attributes):
-        value = feature[attribute] if attribute else None
-        value = None if compat.is_null(value) else value
+    found, others = [], 0
+    for feature in features_of(source, label, crs.value, context, list(attributes)):
+        values = {name: feature[name] for name in attributes}
+        values = {name: None if compat.is_null(one) else one for name, one in values.items()}
         for part in feature.geometry().constParts():
             if isinstance(part, shape):
-                found.append((corners_of(part.segmentize()), value))
+                found.append((corners_of(part.segmentize()), values))
             else:
                 others += 1
     if not found and (others or not may_be_empty):

@@ -18,11 +18,11 @@ from qgis.core import (
     QgsProcessingParameterString,
 )
 
-from ...algorithms.classes.corrections import NO_CORRECTIONS, Corrections
+from ...algorithms.classes.corrections import NO_CORRECTIONS, Corrections, plain_values
 from ...algorithms.core.progress import SILENT, Progress
 from ...algorithms.rasters.cell_grid import RasterTarget
 from ...algorithms.survey.area import Area
-from ...algorithms.survey.vector_files import CLASS_FIELD
+from ...algorithms.survey.vector_files import ANSWER_FIELD, CLASS_FIELD
 from ...algorithms.tools.declaration import Input, ToFind, with_note
 from ...algorithms.tools.input_groups import GROUPS
 from ...algorithms.tools.rasters.constraints import Constraints
@@ -113,7 +113,11 @@ def add_input(algorithm: BareEarthAlgorithm, declared: Input) -> None:
                 add_input(algorithm, replace(part, advanced=part.advanced or declared.advanced))
         return
     makers: dict[str, Callable[[], QgsProcessingParameterDefinition]] = {
-        "cloud": lambda: PointCloudInput(name, label),
+        "cloud": lambda: (
+            SurveyInput(name, label, None, True)
+            if declared.optional
+            else PointCloudInput(name, label)
+        ),
         "clouds": lambda: SurveyInput(name, label),
         "address": lambda: PointCloudInput(name, label),
         "raster": lambda: QgsProcessingParameterRasterLayer(name, label, None, declared.optional),
@@ -148,8 +152,21 @@ def given(request: Request, declared: Input) -> Given:
 
 def _cloud(request: Request, declared: Input) -> Given:
     algorithm, parameters, context, _ = request
+    if declared.optional:
+        return _optional_cloud(request, declared)
     source = source_of(algorithm, parameters, declared.field_name, context)
     return _of_sources([source], is_one=declared.kind == "cloud")
+
+
+def _optional_cloud(request: Request, declared: Input) -> Given:
+    """Return the value for points that are an option of the command, and are never downloaded."""
+    if request.is_empty(declared):
+        return Given(None)
+    algorithm, parameters, context, _ = request
+    source = source_of(algorithm, parameters, declared.field_name, context)
+    if isinstance(source, Remote):
+        raise Refusal(mark("{} is not on this computer. Choose a file."), names_of([source]))
+    return Given(source, {declared.name: str(source)})
 
 
 def _address(request: Request, declared: Input) -> Given:
@@ -212,12 +229,17 @@ def _corrections(request: Request, declared: Input) -> Given:
     if request.is_empty(declared):
         return Given(NO_CORRECTIONS)
     layer = declared.field_name
-    name = algorithm.parameterAsString(parameters, "CORRECTIONS_FIELD", context) or CLASS_FIELD
+    asked = algorithm.parameterAsString(parameters, "CORRECTIONS_FIELD", context) or CLASS_FIELD
     source = algorithm.parameterAsSource(parameters, layer, context)
-    if source is not None and source.fields().lookupField(name) < 0:
+    fields = [] if source is None else source.fields().names()
+    name, answer = (
+        next((field for field in fields if field.lower() == wanted.lower()), "")
+        for wanted in (asked, ANSWER_FIELD)
+    )
+    if source is not None and not (name or answer):
         text = mark("The corrections have no attribute {}. Choose the one to use.")
-        raise Refusal(text, name)
-    file = request.file_in(layer) if name == CLASS_FIELD else ""
+        raise Refusal(text, asked)
+    file = request.file_in(layer) if asked.lower() == CLASS_FIELD else ""
     if not file:
         progress.info(
             "In the command line the corrections are missing: save them in the CRS of the points"
@@ -225,7 +247,10 @@ def _corrections(request: Request, declared: Input) -> Given:
             " --corrections corrections.geojson."
         )
     field = algorithm, parameters, layer, "Corrections", context, _crs_of(request)
-    found = Corrections(*zip(*layer_shapes(*field, attribute=name)))
+    shapes = layer_shapes(*field, attributes=fields)
+    polygons, rows = zip(*shapes) if shapes else ((), ())
+    classes, answers = (tuple(row.get(one) for row in rows) for one in (name, answer))
+    found = Corrections(polygons, classes, answers, tuple(map(plain_values, rows)))
     return Given(found, {declared.name: file})
 
 

@@ -107,7 +107,11 @@ class ToolAlgorithm(BareEarthAlgorithm):
         for declared in self._inputs:
             if declared.is_last:
                 add_input(self, declared)
-        kinds = {declared.kind for declared in self._inputs}
+        kinds = {
+            declared.kind
+            for declared in self._inputs
+            if not (declared.optional and declared.kind == "cloud")
+        }
         if kinds.intersection(_CLOUDS):
             add_remote(self, has_area=not kinds.isdisjoint(_PARTS))
         for output in self._outputs:
@@ -160,9 +164,8 @@ class ToolAlgorithm(BareEarthAlgorithm):
         """Find the inputs, and warn of a filter that is ignored."""
         super().prepare(parameters, context, progress)
         for declared in self._inputs:
-            if declared.kind in ("cloud", "clouds") and ignored_filter(
-                self, parameters, declared.field_name, context
-            ):
+            is_read = declared.kind in ("cloud", "clouds") and not declared.optional
+            if is_read and ignored_filter(self, parameters, declared.field_name, context):
                 progress.warning("The layer's filter is not applied: all points are read.")
         # The CRS of remote points is not known before the download.
         if not any(map(self._is_far, self._given)):

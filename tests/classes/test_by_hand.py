@@ -173,7 +173,7 @@ def test_the_command_line_takes_polygons_of_a_file(cloud, corrections, tmp_path,
     assert "lies in the polygons of the corrections" in capsys.readouterr().err
 
 
-@pytest.mark.parametrize("properties", [{}, {"class": "ground"}, {"class": 256}, {"class": 2.5}])
+@pytest.mark.parametrize("properties", [{"class": "ground"}, {"class": 256}, {"class": 2.5}])
 def test_polygons_without_a_proper_class_are_refused(properties, cloud, tmp_path):
     out, path = tmp_path / "out.laz", _geojson(tmp_path / "known.geojson", (HALL, properties))
     with pytest.raises(BareEarthError, match="must be a whole number from 0 to 255"):

@@ -47,7 +47,13 @@ def test_the_first_place_is_the_gap_with_its_reason_and_its_page(rasters):
     page = rasters / "page.html"
     found, summary = reviewed(rasters, page=page)
     first = found.iloc[0]
-    assert list(found.RANK) == list(range(1, len(found) + 1)) and found["class"].isna().all()
+    assert list(found.RANK) == list(range(1, len(found) + 1))
+    assert found["class"].isna().all() and found.answer.isna().all()
+    # The line of the profile goes through the gap.
+    assert abs((first.X1 + first.X2) / 2 - 500_055) < 16
+    assert np.hypot(first.X2 - first.X1, first.Y2 - first.Y1) > 30
+    shown = found[["LOW", "HIGH", "ERROR", "X1", "Y2"]].to_numpy()
+    np.testing.assert_array_equal(shown, shown.round(2))
     assert "gap" in first.REASON or "hardly any ground" in first.REASON
     middle = first.geometry.centroid
     assert abs(middle.x - 500_055) < 5 and abs(middle.y - 5_600_055) < 5
@@ -72,12 +78,13 @@ def test_answers_are_left_out_and_become_corrections(rasters, tmp_path, capsys):
     answered = tmp_path / "answered.gpkg"
     pyogrio.write_dataframe(found, answered)
     left, again = reviewed(rasters, corrections=answered)
-    assert again.answered == 1 and len(left) == summary.place_count - 1
+    assert (again.answered, again.carried) == (1, 1)
+    assert again.place_count == summary.place_count - 1 and len(left) == summary.place_count
     # Those without a class correct nothing.
     words = ["classify", rasters / "in.laz", tmp_path / "out.laz", "--crs", "EPSG:25832"]
     words += ["--method", "slope", "--corrections", answered, "--verbose"]
     assert main([str(word) for word in words]) == 0
-    assert "1 polygon of the corrections has no class, and no effect" in capsys.readouterr().err
+    assert "1 polygon of the corrections has no class and no answer" in capsys.readouterr().err
     inside = laspy.read(tmp_path / "out.laz")
     x, y = np.asarray(inside.x) - 500_000, np.asarray(inside.y) - 5_600_000
     middle = (np.abs(x - 55) < 10) & (np.abs(y - 55) < 10)
@@ -86,7 +93,7 @@ def test_answers_are_left_out_and_become_corrections(rasters, tmp_path, capsys):
 
 def test_corrections_of_which_none_has_a_class_are_refused(rasters, tmp_path):
     reviewed(rasters)
-    with pytest.raises(BareEarthError, match="class of each polygon"):
+    with pytest.raises(BareEarthError, match="none has a class or an answer"):
         bare_earth.classify(
             rasters / "in.laz", tmp_path / "out.laz", crs=25832,
             corrections=rasters / "places.gpkg",
@@ -154,3 +161,66 @@ def test_last_bits_of_errors_decide_nothing(least):
     for seed in range(5):
         random = np.random.default_rng(seed)
         assert found(error * (1.0 + random.uniform(-2e-7, 2e-7, error.shape))) == expected
+
+
+def test_answers_of_all_rounds_are_in_the_newest_layer(rasters, tmp_path):
+    how = {"least_error": 0.1, "least_area": 0.0}
+    first, _ = reviewed(rasters, **how)
+    assert len(first) > 3
+    first.loc[0, "answer"], first.loc[1, "answer"], first.loc[2, "class"] = "right", "skip", 1
+    answered = tmp_path / "one.gpkg"
+    pyogrio.write_dataframe(first, answered)
+    second, summary = reviewed(rasters, corrections=answered, **how)
+    assert (summary.answered, summary.carried) == (2, 2)
+    assert summary.place_count == len(first) - 2 and len(second) == len(first)
+    new, old = second.iloc[: summary.place_count], second.iloc[summary.place_count :]
+    # The skipped place comes last, and has no answer yet.
+    assert new.answer.isna().all() and new.iloc[-1].geometry.equals(first.geometry[1])
+    assert old.answer.fillna("").tolist() == ["right", ""] and old["class"].tolist()[1] == 1
+    assert list(second.RANK) == list(range(1, len(second) + 1))
+    for column in ("REASON", "ERROR", "AREA", "LOW", "HIGH", "X1", "Y1", "X2", "Y2"):
+        assert old[column].tolist() == first[column][[0, 2]].tolist()
+    assert all(a.equals(b) for a, b in zip(old.geometry, first.geometry[[0, 2]]))
+    # The next round needs only the newest layer.
+    second.loc[0, "answer"] = "not ground"
+    newest = tmp_path / "two.gpkg"
+    pyogrio.write_dataframe(second, newest)
+    third, summary = reviewed(rasters, corrections=newest, **how)
+    assert summary.carried == 3
+    assert sorted(map(str, third.answer.dropna())) == ["not ground", "right"]
+
+
+def test_the_page_shows_points_in_their_classes_with_axes(rasters, tmp_path):
+    page, plain = tmp_path / "page.html", tmp_path / "plain.html"
+    reviewed(rasters, page=plain)
+    reviewed(rasters, page=page, points=rasters / "in.laz")
+    text = page.read_text(encoding="utf-8")
+    for words in ("high vegetation", "ground", "along the line, m", "height, m", "the line of the"):
+        assert words in text, words
+    assert "high vegetation" not in plain.read_text(encoding="utf-8")
+    # The trees over the gap are 9 m above the ground, so the axis goes beyond them.
+    assert ">55</text>" in text and ">55</text>" not in plain.read_text(encoding="utf-8")
+
+
+def test_what_answers_changed_is_told_for_all_and_for_each_place(rasters, tmp_path):
+    found, _ = reviewed(rasters)
+    found.loc[0, "class"] = 2
+    answered, page = tmp_path / "answered.gpkg", tmp_path / "page.html"
+    pyogrio.write_dataframe(found.iloc[:1], answered)
+    new = {name: tmp_path / f"{name}.tif" for name in ("dtm", "expected_error")}
+    bare_earth.classify(
+        rasters / "in.laz", tmp_path / "out.laz", crs=25832, dtm_cell_size=1.0,
+        corrections=answered, **new,
+    )  # fmt: skip
+    summary = bare_earth.review(
+        new["expected_error"], tmp_path / "p.gpkg", dtm=new["dtm"], earlier=rasters / "dtm.tif",
+        corrections=answered, page=page,
+    )  # fmt: skip
+    assert "The terrain model changed in" in summary.text and "+9.0" in summary.text
+    text = page.read_text(encoding="utf-8")
+    assert "What your answers changed" in text and "place 1" in text and "class 2" in text
+    same = bare_earth.review(
+        rasters / "expected_error.tif", tmp_path / "q.gpkg", dtm=rasters / "dtm.tif",
+        earlier=rasters / "dtm.tif",
+    )  # fmt: skip
+    assert "the same as in the run before" in same.text

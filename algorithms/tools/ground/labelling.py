@@ -14,6 +14,7 @@ from ...core.errors import BareEarthError
 from ...core.parameters import ParameterSet
 from ...core.points import Box, Points
 from ...core.progress import Notes, Progress
+from ...core.words import counted
 from ...engine.blocks import Blocks, Visit
 from ...engine.store import BlockPoints
 from ...filters import method_of
@@ -22,11 +23,12 @@ from ...filters.stages.noise import UNTHINNED
 from ...filters.stages.outliers import below_ground
 from ...grids.bridge_decks import bridge_decks
 from ...grids.cells import Cells, keep_spacing
+from ...grids.continued_ground import CONTINUED, continued_ground
 from ...grids.high_groups import HighGroups
 from ...grids.parts import apart
 from ...las.return_numbers import MULTI_RETURN
 from .explanation import ExplainedCells
-from .looks import Look, with_looks
+from .looks import Look, label_of, with_looks
 
 # Shares of the time of a block for finding bridges, and low outliers.
 _BRIDGES_SHARE = 0.15
@@ -37,6 +39,8 @@ _EVERYWHERE = (-np.inf, -np.inf, np.inf, np.inf)
 # Points beyond only show the surface, for which the lowest of them are enough. This saves time and
 # memory where points are dense.
 _NEAR = 40.0
+# The flag of points in places where a person saw ground.
+TO_CONTINUE = "to continue"
 # Side in metres of the cells of whose points only the lowest is used farther away. The cells of the
 # filters are made of such cells, so that their lowest points stay.
 _CELL = 0.5
@@ -51,9 +55,14 @@ class Label(IntEnum):
     HIGH = 4
 
 
-def blocks_of(parameters: ParameterSet) -> Blocks:
-    """Return the blocks in which a method filters a survey."""
-    return Blocks.of(method_of(parameters).reach(parameters))
+def reach_of(parameters: ParameterSet, continues: bool = False) -> float:
+    """Return how far points matter to a method in metres, if it then `continues` its ground."""
+    return method_of(parameters).reach(parameters) + (CONTINUED if continues else 0.0)
+
+
+def blocks_of(parameters: ParameterSet, continues: bool = False) -> Blocks:
+    """Return the blocks in which a method filters a survey, and perhaps `continues` its ground."""
+    return Blocks.of(reach_of(parameters, continues))
 
 
 def labelled(
@@ -82,6 +91,9 @@ def labelled(
         label = partial(_label, parameters, selection, explains, looks, box)
         try:
             found, decided = _labels(contents, core, label, visit.blocks.buffer, notes)
+            if TO_CONTINUE in contents.flags:
+                tell_spacing(contents.points, box)
+                notes.continued = _continue(contents, core, found)
             labels = found if core.all() else found[core]
             if decided is not None:
                 points = contents.points.take(core)
@@ -141,6 +153,17 @@ def _label(
     return labels, decided
 
 
+def _continue(contents: BlockPoints, core: np.ndarray, labels: np.ndarray) -> int:
+    """Label the points that continue the ground in places where a person saw ground; return how
+    many of them lie in the core.
+    """
+    names = label_of(labels)
+    inside = contents.flags[TO_CONTINUE] & contents.wanted & (names == 0)
+    more = continued_ground(contents.points, names == Label.GROUND, inside)
+    labels[more] |= np.uint8(Label.GROUND)
+    return int(np.count_nonzero(more & core))
+
+
 def _seen(look: Look, points: Points, box: Box, known: np.ndarray, multi: np.ndarray) -> np.ndarray:
     """Return the points that are ground in another look, and those that are known ground."""
     moved = look.moved(points)
@@ -192,6 +215,7 @@ class BlockMessages(Notes):
         super().__init__(whole)
         self._is_only, self.count = is_only, count  # points to label in the block
         self.failure: BareEarthError | None = None  # why the block has no ground
+        self.continued = 0  # points that became ground by the answers of a person
 
     def keep(self, kind: str, text: str) -> None:
         """Keep a message, or pass it on at once if there is only one block."""
@@ -219,6 +243,18 @@ def tell(progress: Progress, blocks: list[BlockMessages]) -> None:
         progress.warning(
             f"No ground was found in {len(failed)} of {len(blocks)} blocks: their"
             f" {sum(block.count for block in failed):,} points are not ground. {failed[0].failure}"
+        )
+
+
+def tell_of_continued(count: int, progress: Progress) -> None:
+    """Report how many points became ground by answers, or warn if there is none."""
+    if count:
+        words = "point continues the ground", "points continue the ground"
+        progress.info(f"{counted(count, *words)} in places with the answer 'ground'.")
+    else:
+        progress.warning(
+            "The answer 'ground' changes nothing: no point in these places continues the ground"
+            " without a step. Where all points of a place are ground, give it the class 2 instead."
         )
 
 

@@ -9,7 +9,8 @@ from typing import Any, Sequence
 
 import numpy as np
 
-from ...classes.corrections import NO_CORRECTIONS, ByHand, Corrections
+from ...classes.corrections import CONTINUED, NO_CORRECTIONS, ByHand, Corrections
+from ...classes.lifts import Lifts
 from ...classes.point_chooser import PointChooser
 from ...classes.point_counts import PointCounts, by_class
 from ...classes.selection import Selection
@@ -31,7 +32,15 @@ from ...las.return_numbers import MULTI_RETURN, SeveralReturns
 from ...rasters.writing import raster_file
 from ...survey.area import Area
 from .explanation import ExplainedCells, write_explanation
-from .labelling import Label, blocks_of, labelled, tell
+from .labelling import (
+    TO_CONTINUE,
+    Label,
+    blocks_of,
+    labelled,
+    reach_of,
+    tell,
+    tell_of_continued,
+)
 from .looks import Look, label_of, looks_in, looks_of
 from .output import Output
 from .summary import Summary, tell_of_groundless_files
@@ -57,12 +66,13 @@ class LabelGround(PointStep):
     @property
     def blocks(self) -> Blocks:
         """The blocks in which the method works."""
-        return self.cut or blocks_of(self.parameters)
+        more = (True,) if self.corrections.continues else ()
+        return self.cut or blocks_of(self.parameters, *more)
 
     @property
     def chooser(self) -> PointChooser:
         """Chooses the points that take part."""
-        reach = method_of(self.parameters).reach(self.parameters)
+        reach = reach_of(self.parameters, self.corrections.continues)
         return PointChooser(self.selection, self.area, reach, self.corrections)
 
     @property
@@ -78,7 +88,10 @@ class LabelGround(PointStep):
     def marks(self, part: PointCloud, counts: PointCounts) -> Marks:
         """Return which points take part, are known ground, and get a label."""
         _, selected, known = self.chooser.choose(part, counts)
-        return Marks(selected, known, self.chooser.near(part), {MULTI_RETURN: SeveralReturns(part)})
+        flags: dict[str, Any] = {MULTI_RETURN: SeveralReturns(part)}
+        if self.corrections.continues:
+            flags[TO_CONTINUE] = self.corrections.classes_of(part) == CONTINUED
+        return Marks(selected, known, self.chooser.near(part), flags)
 
     def applied(self, part: PointCloud, values: np.ndarray) -> PointCloud:
         """Return points with their new classes, also those near the area: they keep their class
@@ -186,6 +199,8 @@ class LabelGround(PointStep):
                 " points as ground."
             )
         tell(progress, [notes for _, (notes, _) in results if notes.count])
+        if self.corrections.continues:
+            tell_of_continued(sum(notes.continued for _, (notes, _) in results), progress)
         return [cells for _, (_, cells) in results if cells is not None]
 
     def finish(
@@ -221,6 +236,7 @@ class ClassifiedPoints(PointResult):
         self._area_ground_count = self._by_hand_count = 0
         self._low_count = self._deck_count = self._high_count = 0
         self._has_ground, self._why = False, ""
+        self._lifts = Lifts(step.corrections, step.selection.to_class)
 
     def applied(self, part: PointCloud, values: np.ndarray) -> PointCloud:
         """Return points with their new classes, and keep for `add` which lie in the area."""
@@ -238,6 +254,7 @@ class ClassifiedPoints(PointResult):
             self.kept[where] = inside if self._step.output.area_only else True
             if self._step.output.ground_only:
                 self.kept[where] &= ground
+        self._lifts.see(after, ground)
         labels = label_of(values)
         self._has_ground |= bool(((labels == Label.GROUND) & inside).any())
         if by_hand is not None:
@@ -267,9 +284,10 @@ class ClassifiedPoints(PointResult):
         self._why = why or self._counts.why_none
 
     def tell(self, progress: Progress) -> None:
-        """Report the numbers of outliers and of points on bridges in the area; refuse one file
-        without ground if only ground is written.
+        """Report the numbers of outliers and of points on bridges in the area, and what answers
+        lift; refuse one file without ground if only ground is written.
         """
+        self._lifts.tell(progress)
         selection, output = self._step.selection, self._step.output
         if output.ground_only and not self._written_ground_count:
             raise BareEarthError(

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import chain
 from pathlib import Path
 from typing import Iterator
 
 import numpy as np
 
-from ...classes.corrections import NO_CORRECTIONS, Corrections
+from ...classes.corrections import NO_CORRECTIONS, SKIP, Corrections
 from ...core.errors import BareEarthError
 from ...core.progress import SILENT, Progress
 from ...core.words import counted
@@ -16,20 +17,16 @@ from ...grids.expected_error import expected_rmse
 from ...rasters.content import Source
 from ...rasters.geotiff import Raster, read_raster
 from ...report.units import Units
-from ...survey.area import Area, Polygon
+from ...survey.area import Polygon
 from ...survey.feature_files import Feature, Layer, feature_writer
+from ...survey.files import Inputs
 from ...survey.shapes import Place
-from ...survey.vector_files import CLASS_FIELD
 from ..contours import corners_of
 from ..declaration import RASTER, TERRAIN, FileTool, Input, Output
-from .page import review_html
+from .answered import FIELDS, carried_over, changes_of, sorted_by_answers
+from .page import SHOWN, review_html
 from .places import CAUSES, PlaceToReview, Rasters, Review, places_of
-
-# Heights are in the unit of the raster, errors and areas in metres and square metres.
-FIELDS: dict[str, type] = {
-    "RANK": int, "REASON": str, "ERROR": float, "AREA": float, "SHARE": float, "LOW": float,
-    "HIGH": float, CLASS_FIELD: int,
-}  # fmt: skip
+from .profile import ProfilePoints, line_of, points_along
 
 
 @dataclass(frozen=True)
@@ -43,8 +40,10 @@ class ReviewSummary:
     place_count: int  # that were written
     left_out: int  # further places, which weigh less
     small_count: int  # places that are smaller than the least area
-    answered: int  # places with an answer in the corrections
+    answered: int  # places with an answer in the corrections, which are left out
     share: float  # of the sum of error times area over the limit that is in the written places
+    carried: int = 0  # places of the corrections that were written with their answers
+    changed: str = ""  # what changed in the terrain model since the run before, as a sentence
 
     def figures(self, units: Units) -> list[tuple[str, str]]:
         """Return the figures of the page, with their titles."""
@@ -57,7 +56,7 @@ class ReviewSummary:
                 f"{self.place_count:,} written, {self.left_out:,} of less weight and"
                 f" {self.small_count:,} too small left out",
             ),
-            ("Places with an answer", f"{self.answered:,}"),
+            ("Places with an answer", f"{self.answered:,} left out, {self.carried:,} carried over"),
         ]
 
     @property
@@ -67,10 +66,12 @@ class ReviewSummary:
         left = ", ".join(f"{counted(n, 'place')} {why}" for why, n in counts.items() if n)
         more = f" Left out: {left}." if left else ""
         done = f" {counted(self.answered, 'place')} had an answer." * (self.answered > 0)
+        kept = f" {counted(self.carried, 'answer')} carried over." * (self.carried > 0)
+        since = f" {self.changed}" * bool(self.changed)
         return (
             f"{counted(self.place_count, 'place')} to review. The expected RMSE of the terrain"
             f" model is {self.expected_rmse:.2f} m; {self.over_count / self.cell_count:.1%} of its"
-            f" cells have an expected error over {self.limit:.2f} m.{more}{done}"
+            f" cells have an expected error over {self.limit:.2f} m.{more}{done}{kept}{since}"
         )
 
 
@@ -80,6 +81,8 @@ def review(
     page: Path | None = None,
     dtm: Source | None = None,
     cause: Source | None = None,
+    earlier: Source | None = None,
+    points: Path | None = None,
     corrections: Corrections | None = None,
     how: Review = Review(),
     progress: Progress = SILENT,
@@ -89,20 +92,19 @@ def review(
     """
     raster = read_raster(source)
     raster.tell(progress)
-    rasters = _rasters(raster, dtm, cause)
+    rasters, before = _rasters(raster, dtm, cause, earlier)
     units = Units(raster.frame.horizontal_unit, raster.frame.vertical_unit)
     known = np.isfinite(rasters.error)
     if not known.any():
         raise BareEarthError(f"{source} has no expected error. Give the raster of one.")
-    progress(0.3)
-    where = Place(str(source), raster.crs)
-    answered = (corrections or NO_CORRECTIONS).located(where, progress).polygons
+    progress(0.2)
+    answered = (corrections or NO_CORRECTIONS).located(Place(str(source), raster.crs), progress)
     limit = how.limit(rasters.error)
     found, small = places_of(rasters, how, limit, units)
-    is_done = _are_answered(found, raster, answered)
-    unanswered = [place for place, done in zip(found, is_done) if not done]
+    unanswered, is_answered = sorted_by_answers(found, raster, answered)
     chosen = unanswered[: how.most_places]
-    progress(0.7)
+    changes = [] if before is None else changes_of(rasters, before, raster, answered)
+    progress(0.5)
     total = sum(place.weight for place in unanswered)
     summary = ReviewSummary(
         int(np.count_nonzero(known)),
@@ -112,64 +114,77 @@ def review(
         len(chosen),
         len(unanswered) - len(chosen),
         small,
-        len(found) - len(unanswered),
+        is_answered,
         round(sum(place.weight for place in chosen) / total, 6) if total else 1.0,
+        sum(answer != SKIP for answer in answered.answers),
+        changes[0].text if changes else "",
     )
+    lines = np.array([corners_of(line_of(rasters, place), raster).ravel() for place in chosen])
     if places is not None:
         layer = Layer("places", "Polygon", FIELDS, raster.frame.wkt, raster.crs.epsg)
-        features = _features(chosen, raster, total)
-        feature_writer(places)(places, features, layer, progress.part(0.7, 0.9))
+        features = chain(
+            _features(chosen, lines, raster, total), carried_over(answered, len(chosen))
+        )
+        feature_writer(places)(places, features, layer, progress.part(0.5, 0.6))
     if page is not None:
+        some = lines[:SHOWN]
+        profiles: list[ProfilePoints | None] = [None] * len(some)
+        if points is not None:
+            profiles = [*points_along(Inputs(points), some, progress=progress.part(0.6, 0.95))]
         name = Path(str(source)).name
-        html = review_html(name, rasters, chosen, summary.figures(units), units)
+        figures = summary.figures(units)
+        html = review_html(name, rasters, (chosen, profiles), (figures, changes), units)
         page.write_text(html, encoding="utf-8")
     progress(1.0)
     return summary
 
 
-def _rasters(raster: Raster, dtm: Source | None, cause: Source | None) -> Rasters:
-    """Return the values of rasters that must have the same cells."""
+def _rasters(
+    raster: Raster, dtm: Source | None, cause: Source | None, earlier: Source | None
+) -> tuple[Rasters, np.ndarray | None]:
+    """Return the values of rasters that must have the same cells, and the earlier terrain."""
     width, height = raster.cell_metres
     if not np.isclose(width, height):
         raise BareEarthError(f"{raster.source} has cells that are no squares. Resample it.")
-    values = [None if one is None else read_raster(one) for one in (dtm, cause)]
-    for name, one in zip((dtm, cause), values):
+    terrain, causes, before = (
+        None if one is None else read_raster(one) for one in (dtm, cause, earlier)
+    )
+    for one in (terrain, causes, before):
         if one is not None and (one.whole, one.geotransform) != (raster.whole, raster.geotransform):
             raise BareEarthError(
-                f"{name} has other cells than {raster.source}. Make both in one run of the same"
-                " tool."
+                f"{one.source} has other cells than {raster.source}. Make both in one run of the"
+                " same tool."
             )
-    terrain, causes = values
+    if before is not None and terrain is None:
+        raise BareEarthError("Give the terrain model too, which is compared with the earlier one.")
     numbers = None if causes is None else np.nan_to_num(causes.heights)
     if numbers is not None and ((numbers < 0) | (numbers > CAUSES) | (numbers % 1 > 0)).any():
         raise BareEarthError(f"{cause} holds no causes of an expected error. Give such a raster.")
-    return Rasters(
+    found = Rasters(
         raster.heights * np.float32(raster.frame.vertical_unit),
-        None if terrain is None else terrain.heights * np.float32(terrain.frame.vertical_unit),
+        None if terrain is None else _in_metres(terrain),
         numbers,
         width,
     )
+    return found, None if before is None else _in_metres(before)
 
 
-def _are_answered(
-    places: list[PlaceToReview], raster: Raster, answered: tuple[Polygon, ...]
-) -> np.ndarray:
-    """Return of which places the worst cell lies in a polygon with an answer; bool, (n,)."""
-    if not answered or not places:
-        return np.zeros(len(places), dtype=bool)
-    x, y = corners_of(np.array([place.worst for place in places]), raster).T
-    return Area(None, answered).contains(x, y)
+def _in_metres(raster: Raster) -> np.ndarray:
+    return raster.heights * np.float32(raster.frame.vertical_unit)
 
 
-def _features(places: list[PlaceToReview], raster: Raster, total: float) -> Iterator[Feature]:
-    """Yield the places as polygons."""
+def _features(
+    places: list[PlaceToReview], lines: np.ndarray, raster: Raster, total: float
+) -> Iterator[Feature]:
+    """Yield the places as polygons, with their profile lines."""
     up = raster.frame.vertical_unit
-    for rank, place in enumerate(places, start=1):
+    for rank, (place, line) in enumerate(zip(places, lines), start=1):
         rings: Polygon = tuple(corners_of(ring, raster) for ring in place.rings)
         yield Feature(
             (
-                rank, place.reason, round(place.error, 3), round(place.area, 2),
-                round(place.weight / total, 5), place.low / up, place.high / up, None,
+                rank, place.reason, round(place.error, 2), round(place.area, 1),
+                round(place.weight / total, 4), round(place.low / up, 2),
+                round(place.high / up, 2), None, None, *(round(end, 2) for end in line.tolist()),
             ),
             rings,
         )  # fmt: skip
@@ -200,14 +215,32 @@ TOOL = FileTool(
             label="Cause of the expected error",
             optional=True,
         ),
+        Input(
+            "points",
+            "cloud",
+            help="The classified points of the same run, a file, a folder or a .vpc: the page shows"
+            " them in the profiles.",
+            label="Classified points",
+            optional=True,
+        ),
+        Input(
+            "earlier",
+            "raster",
+            help="The terrain model of the run before the corrections, with the same cells: the"
+            " page says what the answers changed.",
+            label="Terrain model of the run before",
+            optional=True,
+            advanced=True,
+        ),
         Input("corrections", "corrections", label="Corrections", is_last=True),
     ),
     outputs=(
         Output(
             "places",
             "features",
-            help="The places as polygons, with rank, reason, largest expected error, area and"
-            " heights, and the attribute class to fill in.",
+            help="The places as polygons, with rank, reason, largest expected error, area, heights"
+            " and the ends of a profile, and the attribute answer to fill in. Behind them come the"
+            " places that the corrections answer, so that the newest layer holds all answers.",
             label="Places to review",
             named="OUTPUT",
             is_main=True,
@@ -216,7 +249,8 @@ TOOL = FileTool(
         Output(
             "page",
             "page",
-            help="A page with the ten places to look at first, their relief and a profile.",
+            help="A page with the ten places to look at first, their relief and a profile, and what"
+            " answers changed.",
             label="Page",
             named="REPORT",
         ),
@@ -226,9 +260,10 @@ TOOL = FileTool(
     title="Places to review",
     section="Quality",
     about="The places are where the expected error is large, those with the largest product of"
-    " error and area first, with the reason. Fill in their attribute 'class' (2 is ground, 1 is"
-    " not), and give them to `classify()` as corrections. Places that corrections answer are left"
-    " out.",
+    " error and area first, with the reason. Fill in their attribute 'answer': 'right', 'not"
+    " ground', 'ground', which continues the ground round the place into it, or 'skip'. Give the"
+    " layer to `classify()` as corrections, and to the next `review()`: places with an answer are"
+    " left out, and those that were skipped come last.",
     page="check#places-to-review",
     words=(RASTER, TERRAIN, "review,error,uncertainty,confidence,quality"),
     run_name="places to review",

@@ -43,7 +43,7 @@ def line_of(rasters: Rasters, place: PlaceToReview) -> np.ndarray:
     inside = np.argwhere(place.cells) + [part.start for part in place.window]
     offsets = (inside - place.worst).astype(np.float64)
     lines = []
-    for angle in np.arange(_DIRECTIONS) * np.pi / _DIRECTIONS:
+    for angle in np.arange(_DIRECTIONS) * np.pi / _DIRECTIONS - np.pi / 2.0:  # from west to east
         way = np.array((-np.sin(angle), np.cos(angle)))
         ends = _ends(offsets, way, rasters.cell)
         lines.append((_departure(rasters, place.worst, way, ends), ends[1] - ends[0], way, ends))
