@@ -109,7 +109,7 @@ class Tile(NamedTuple):
         cloud, reference = data.load(path)
         points = cloud.points(np.ones(cloud.count, dtype=bool))
         takes_part = Selection().choose(cloud, PointCounts())
-        terrain = _tin(points.take(reference == GROUND))
+        terrain = tin(points.take(reference == GROUND))
         return cls(cloud, takes_part, points.take(takes_part), terrain)
 
     def ground(self, method: str) -> np.ndarray:
@@ -137,7 +137,7 @@ def all_cells(path: Path) -> tuple[np.ndarray, np.ndarray]:
         (first + np.arange(count) + 0.5) * CELL for first, count in zip(cells.first, cells.shape)
     )
     centres = [axis.ravel() for axis in np.meshgrid(x, y)]
-    error = np.abs(_tin(tile.points.take(ground))(*centres) - tile.terrain(*centres))
+    error = np.abs(tin(tile.points.take(ground))(*centres) - tile.terrain(*centres))
     return expected, error.reshape(cells.shape)
 
 
@@ -190,7 +190,7 @@ def compared(
     drawn = random.choice(count, min(_CELLS, count), replace=False)
     places = np.unravel_index(drawn, cells.shape)
     y, x = ((first + place + 0.5) * CELL for first, place in zip(cells.first, places))
-    error = np.abs(_tin(points.take(ground))(x, y) - terrain(x, y))
+    error = np.abs(tin(points.take(ground))(x, y) - terrain(x, y))
     half = CELL / 2.0
     rises = (
         terrain(x + half, y) - terrain(x - half, y),
@@ -211,7 +211,8 @@ def compared(
     )
 
 
-def _tin(ground: Points) -> Terrain:
+def tin(ground: Points) -> Terrain:
+    """Return the heights of the TIN of ground points."""
     return Surface(ground.take(DenseSurface(ground, CELL).vertices)).heights
 
 

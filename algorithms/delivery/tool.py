@@ -69,10 +69,11 @@ def _in_dialog() -> tuple[Output, ...]:
     """Return the folder of a delivery, and the outputs without one."""
     single = []
     for output in maps():
+        row = RASTERS.get(output.name)
+        if row is not None and row.is_relief and output.name not in _RELIEFS:
+            continue
         if output.name == "contours":
             output = replace(output, label="Contour lines")
-        elif RASTERS[output.name].is_relief and output.name not in _RELIEFS:
-            continue
         single.append(replace(output, by_default=output.name in _USUAL))
     cloud = replace(CLOUD_OUTPUT, name="cloud", named="OUTPUT", is_main=False)
     return replace(_FOLDER, is_main=False), cloud, *single

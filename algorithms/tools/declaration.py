@@ -117,9 +117,10 @@ class Output:
     by_default: bool = True  # whether the dialog writes it unless the user switches it off
     look: str = ""  # how QGIS shows it: a name in `LOOKS` of plugin/styles/layers.py
     needs: str = ""  # an input; without it, dialogs and deliveries do not write this output
-    # The command of another tool that draws it afterwards, and the output that this tool reads.
+    # The command of another tool that makes it afterwards as its main output, and which outputs are
+    # the inputs of that tool, by the names of these.
     drawn_by: str = ""
-    drawn_of: str = ""
+    drawn_of: Mapping[str, str] = field(default_factory=dict)
     # For a folder of rasters: returns their paths by their names, in the folder that the user
     # gives, or that path if it is a file. `work` gets temporary paths by the same names.
     files: Callable[[Path, Sequence[ParameterSet]], dict[str, Path]] | None = None

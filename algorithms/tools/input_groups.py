@@ -44,7 +44,8 @@ _CORRECTIONS = (
     Input(
         "corrections",
         "polygons",
-        help="Polygons in which you know the class, which is their attribute 'class'. It replaces"
+        help="Polygons in which you know the class, which is their attribute 'class', or places to"
+        " review with their attribute 'answer', which counts before the class. A class replaces"
         " the result of the filter. If it is the class of the ground, points of the chosen returns"
         " are ground. Any other class is given to all points, and the filter does not use them."
         " Where polygons overlap, the last one counts.",

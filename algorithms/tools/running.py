@@ -22,7 +22,7 @@ from ..remote.addresses import is_address
 from ..survey.files import Inputs
 from ..survey.outputs import check_outputs, place
 from . import file_tool
-from .declaration import FileTool, MapTool, PointTool, ToFind, Tool
+from .declaration import FileTool, MapTool, Output, PointTool, ToFind, Tool
 
 if TYPE_CHECKING:
     from ..engine.workers import Workers
@@ -69,7 +69,7 @@ def _run_on_points(
     with contextlib.ExitStack() as opened:
         paths, summaries = dict(outputs), {}
         # Files that the user does not ask for, but steps or drawings need, are temporary.
-        needed = {output.drawn_of: f"{output.drawn_of}.tif" for output in drawings}
+        needed = {name: f"{name}.tif" for one in drawings for name in one.drawn_of.values()}
         if tool.writes_points:
             needed["output"] = "cloud.las"
         folders = [path.parent for path in outputs.values() if path.parent.is_dir()]
@@ -88,16 +88,33 @@ def _run_on_points(
         pending = None if virtual else opened.enter_context(Outputs())
         summary = run_of_steps.work(points, target, working, workers, vpc, pending)
         for output, part in zip(drawings, drawing):
-            path, lines = paths[output.drawn_of], {"output": outputs[output.name]}
-            source = virtual[path] if pending is None else pending.waiting(path)
-            if not source.exists():  # of files without points there is no raster
-                continue
-            drawing_tool = file_tool(output.drawn_by)
-            summaries[output.name] = _run_on_files(
-                drawing_tool, {"source": source}, lines, sets, part, pending
-            )
+            reads = {
+                name: virtual[paths[of]] if pending is None else pending.waiting(paths[of])
+                for name, of in output.drawn_of.items()
+            }
+            if not all(path.exists() for path in reads.values()):
+                continue  # of files without points there is no raster
+            drawn = _draw(output, {**inputs, **reads}, outputs[output.name], sets, part, pending)
+            summaries[output.name] = drawn
     if summaries:
         object.__setattr__(summary, "drawn", summaries)  # it is a frozen dataclass
+    return summary
+
+
+def _draw(
+    output: Output,
+    inputs: Mapping[str, Any],
+    path: Path,
+    sets: Sequence[ParameterSet],
+    progress: Progress,
+    pending: Outputs | None,
+) -> Any:
+    """Let a tool draw an output from rasters, with those inputs of the run that it has too."""
+    tool = file_tool(output.drawn_by)
+    main = next(one.name for one in tool.outputs if one.is_main)
+    given = {one.name: inputs[one.name] for one in tool.inputs if one.name in inputs}
+    summary = _run_on_files(tool, given, {main: path}, sets, progress, pending)
+    progress.info(f"{output.name}: {summary.text}")
     return summary
 
 

@@ -224,6 +224,8 @@ class CompositionAlgorithm(ToolAlgorithm):
         progress.share(done.ground_count, point_count, bool(given["area"]))
         if interval := done.drawn.get("contours"):
             self.show(paths["contours"], layers.contours(interval))
+        if paths.get("places"):
+            self.show(paths["places"], layers.PLACES)
         results: dict[str, object] = {**drawn}
         if cloud:
             results["OUTPUT"] = written

@@ -224,3 +224,23 @@ def test_what_answers_changed_is_told_for_all_and_for_each_place(rasters, tmp_pa
         earlier=rasters / "dtm.tif",
     )  # fmt: skip
     assert "the same as in the run before" in same.text
+
+
+def test_one_run_classifies_and_makes_the_places_with_carried_answers(rasters, tmp_path):
+    places, again = tmp_path / "places.gpkg", tmp_path / "again.gpkg"
+    how = {"crs": 25832, "dtm_cell_size": 1.0}
+    bare_earth.classify(rasters / "in.laz", tmp_path / "a.laz", places=places, **how)
+    found = pyogrio.read_dataframe(places)
+    assert len(found) and "a large expected error" not in " ".join(found.REASON)
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["a.laz", "places.gpkg"]
+    found.loc[0, "answer"] = "right"
+    pyogrio.write_dataframe(found, places)
+    dtm = tmp_path / "dtm.tif"
+    bare_earth.classify(
+        rasters / "in.laz", tmp_path / "b.laz", places=again, dtm=dtm, corrections=places, **how
+    )
+    assert dtm.exists()
+    assert pyogrio.read_dataframe(again).answer.dropna().tolist() == ["right"]
+    bare_earth.terrain(tmp_path / "b.laz", places=tmp_path / "t.geojson", **how)
+    content = json.loads((tmp_path / "t.geojson").read_text(encoding="utf-8"))
+    assert len(content["features"]) == len(found)

@@ -103,8 +103,11 @@ def as_command(sets: Iterable[ParameterSet]) -> list[ParameterSet]:
 
 def _usual_maps() -> list[Output]:
     named = {output.name: output for output in maps()}
-    error = replace(named["expected_error"], by_default=False, advanced=True)
-    return [named["dtm"], named["hillshade"], error]
+    errors = (
+        replace(named[name], by_default=False, advanced=True)
+        for name in ("expected_error", "error_cause")
+    )
+    return [named["dtm"], named["hillshade"], *errors]
 
 
 METHOD_TOOLS = tuple(

@@ -25,6 +25,20 @@ from .step import MakeRasters
 _FOLDED = ("error_cause", "confidence")
 
 
+PLACES = Output(
+    "places",
+    "features",
+    "The places to review, where the expected error is large: polygons with the reason, for which"
+    " terrain model, expected error and its cause are made too. With corrections, their answers are"
+    " carried over.",
+    label="Places to review",
+    advanced=True,
+    by_default=False,
+    drawn_by="review",
+    drawn_of={"source": "expected_error", "dtm": "dtm", "cause": "error_cause"},
+)
+
+
 def maps() -> tuple[Output, ...]:
     """Return the outputs of all runs that make rasters."""
     rasters = (
@@ -34,8 +48,10 @@ def maps() -> tuple[Output, ...]:
         )
         for name, row in RASTERS.items()
     )  # fmt: skip
-    lines = Output("contours", "features", CONTOUR_HELP, drawn_by="contours", drawn_of="dtm")
-    return *rasters, lines
+    lines = Output(
+        "contours", "features", CONTOUR_HELP, drawn_by="contours", drawn_of={"source": "dtm"}
+    )
+    return *rasters, lines, PLACES
 
 
 def rasters_of(
