@@ -74,7 +74,7 @@ def test_the_attribute_is_chosen_and_one_without_a_class_is_told(scene, tmp_path
     assert "have no attribute class. Choose the one to use." in run(layer)
     assert set(run(layer, CORRECTIONS_FIELD="kind")[in_strip]) == {9}
     layer, _ = polygons(scene, values=(None, None))
-    assert "must be a whole number from 0 to 255" in run(layer)
+    assert "none has a class or an answer" in run(layer)
     layer, in_strip = polygons(scene, values=(2, None))
     assert not (run(layer)[in_strip] == 9).any()
 
