@@ -74,7 +74,9 @@ def _in_dialog() -> tuple[Output, ...]:
             continue
         if output.name == "contours":
             output = replace(output, label="Contour lines")
-        single.append(replace(output, by_default=output.name in _USUAL))
+        is_folded = output.advanced and row is not None
+        output = replace(output, by_default=output.name in _USUAL, advanced=is_folded)
+        single.append(output)
     cloud = replace(CLOUD_OUTPUT, name="cloud", named="OUTPUT", is_main=False)
     return replace(_FOLDER, is_main=False), cloud, *single
 

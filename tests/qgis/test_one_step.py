@@ -57,6 +57,23 @@ def test_a_file_becomes_all_maps(scene, tmp_path):
     assert not [key for key in os.listdir(tmp_path) if key.startswith(".") or "aux" in key]
 
 
+def test_places_to_review_come_from_the_same_run(scene, tmp_path):
+    import processing
+
+    places, points = str(tmp_path / "places.gpkg"), str(tmp_path / "ground.laz")
+    log = Log()
+    results = processing.run(
+        ALL_IN_ONE, {"INPUT": str(scene.path), "OUTPUT": points, "PLACES": places}, feedback=log
+    )
+    assert results["PLACES"] == places and "to review" in log.text
+    opened = ogr.Open(places)
+    found = opened[0]
+    names = [field.name for field in found.schema]
+    assert {"REASON", "answer", "class", "X1", "Y2"} <= set(names)
+    assert "a large expected error" not in {place.GetField("REASON") for place in found}
+    assert sorted(os.listdir(tmp_path)) == ["ground.laz", "places.gpkg", "scene.laz"]
+
+
 def test_the_commands_at_the_end_of_the_log_do_the_same(scene, tmp_path):
     import processing
 

@@ -29,10 +29,10 @@ SHARED_PARAMETERS = [
     "THREADS", "MEMORY",
     "CORRECTIONS", "CORRECTIONS_FIELD",
     "BREAKLINES", "WATER", "RIVERS", "NO_GROUND", "LIKE", "RASTER_EXTENT",
-    "LIMIT", "OUTPUT", "DTM", "HILLSHADE", "EXPECTED_ERROR", "EXPLANATION",
+    "LIMIT", "OUTPUT", "DTM", "HILLSHADE", "EXPECTED_ERROR", "ERROR_CAUSE", "EXPLANATION",
 ]  # fmt: skip
 SHARED_OUTPUTS = [
-    "OUTPUT", "DTM", "HILLSHADE", "EXPECTED_ERROR", "EXPLANATION",
+    "OUTPUT", "DTM", "HILLSHADE", "EXPECTED_ERROR", "ERROR_CAUSE", "EXPLANATION",
     "POINT_COUNT", "AREA_COUNT", "SELECTED_COUNT", "GROUND_COUNT",
 ]  # fmt: skip
 PARAMETERS = {
@@ -62,7 +62,7 @@ PARAMETERS = {
         "CHECKPOINTS", "Z_FIELD", "COVER_FIELD", "NAME_FIELD", "LIMIT",
         "DELIVERY_FOLDER",
         "OUTPUT", "DTM", "DSM", "CHM", "HILLSHADE", "EXPECTED_ERROR", "ERROR_CAUSE", "CONFIDENCE",
-        "RELIEF", "CONTOURS",
+        "RELIEF", "CONTOURS", "PLACES",
     ],
     "bareearth:gridminimum": [
         "INPUT", "CRS", "EXTENT", "BOUNDARY",
@@ -92,6 +92,7 @@ PARAMETERS = {
         "THREADS", "MEMORY", "CORRECTIONS", "CORRECTIONS_FIELD",
         "BREAKLINES", "WATER", "RIVERS", "NO_GROUND", "LIKE", "RASTER_EXTENT",
         "LIMIT", "OUTPUT_FOLDER", "OUTPUT_VPC", "DTM", "HILLSHADE", "EXPECTED_ERROR",
+        "ERROR_CAUSE",
     ],
     "bareearth:heightaboveground": [
         "INPUT", "CRS", "GROUND_CLASSES", "OVERLAP", "OUTPUT_AS", "THREADS", "MEMORY", "DTM",
@@ -140,7 +141,7 @@ PARAMETERS = {
         "CONFIDENCE", "EXTENT", "LIMIT", "OUTPUT", "REPORT",
     ],
     "bareearth:review": [
-        "INPUT", "DTM", "CAUSE", "LEAST_ERROR", "LEAST_AREA", "MOST_PLACES",
+        "INPUT", "DTM", "CAUSE", "POINTS", "EARLIER", "LEAST_ERROR", "LEAST_AREA", "MOST_PLACES",
         "CORRECTIONS", "CORRECTIONS_FIELD", "OUTPUT", "REPORT",
     ],
     "bareearth:fetch": [
@@ -177,6 +178,7 @@ OUTPUTS = {
         "DTM",
         "HILLSHADE",
         "EXPECTED_ERROR",
+        "ERROR_CAUSE",
         "TILE_COUNT",
         "DONE_COUNT",
         "KEPT_COUNT",
@@ -196,6 +198,7 @@ OUTPUTS = {
         "CONFIDENCE",
         "RELIEF",
         "CONTOURS",
+        "PLACES",
         "POINT_COUNT",
         "GROUND_COUNT",
         "VERDICT",

@@ -50,6 +50,26 @@ def test_places_are_found_and_those_with_an_answer_left_out(
     assert results["PLACE_COUNT"] == 1 and "1 place had an answer" in log.text
 
 
+def test_answers_count_before_classes_and_are_carried_over(registry, error, tmp_path, context, log):
+    places, again = str(tmp_path / "places.gpkg"), str(tmp_path / "again.gpkg")
+    parameters = {"INPUT": error, "LEAST_ERROR": 0.5, "OUTPUT": places}
+    _, done = registry.createAlgorithmById(ALGORITHM).run(parameters, context, log)
+    assert done, log.text
+    layer = places_of(places)
+    first = next(layer.getFeatures())
+    answer, field = (layer.fields().lookupField(name) for name in ("answer", "class"))
+    values = {first.id(): {answer: "right", field: 1}}
+    assert layer.dataProvider().changeAttributeValues(values)
+    parameters |= {"CORRECTIONS": layer, "OUTPUT": again}
+    results, done = registry.createAlgorithmById(ALGORITHM).run(parameters, context, log)
+    assert done, log.text
+    assert results["PLACE_COUNT"] == 1
+    new, old = places_of(again).getFeatures()
+    assert (new["RANK"], old["RANK"]) == (1, 2)
+    assert old["answer"] == "right" and old["REASON"] == first["REASON"]
+    assert old["X1"] == first["X1"] and old["ERROR"] == first["ERROR"]
+
+
 def test_the_layer_shows_the_reason_and_asks_for_a_class(registry, error, tmp_path, context, log):
     from bare_earth.plugin.styles import layers
 

@@ -222,6 +222,7 @@ TOOL = FileTool(
             " them in the profiles.",
             label="Classified points",
             optional=True,
+            advanced=True,
         ),
         Input(
             "earlier",
