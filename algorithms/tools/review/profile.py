@@ -46,9 +46,11 @@ def line_of(rasters: Rasters, place: PlaceToReview) -> np.ndarray:
     for angle in np.arange(_DIRECTIONS) * np.pi / _DIRECTIONS - np.pi / 2.0:  # from west to east
         way = np.array((-np.sin(angle), np.cos(angle)))
         ends = _ends(offsets, way, rasters.cell)
-        lines.append((_departure(rasters, place.worst, way, ends), ends[1] - ends[0], way, ends))
+        # Rounded, so that no last bit of a number decides.
+        departure = round(_departure(rasters, place.worst, way, ends), 2)
+        lines.append((departure, round(ends[1] - ends[0], 2), way, ends))
     most = max(line[0] for line in lines)
-    good = (line for line in lines if line[0] >= _AS_GOOD * most)
+    good = (line for line in lines if line[0] >= round(_AS_GOOD * most, 2))
     _, _, way, ends = min(good, key=lambda line: (line[1], -line[0]))
     return np.array(place.worst) + np.outer(ends, way)
 
