@@ -327,5 +327,5 @@ TOOL = FileTool(
     run_name="contours",
     words=(TERRAIN, RASTER, "contours,isolines,contour map,depression,knoll,dxf,cad,ocad"),
     numbers=(("LINE_COUNT", "Contour lines"), ("HEIGHT", "Contour interval")),
-    shown=("contour_interval", "contour_smoothing", "contour_min_length", "contour_knolls"),
+    shown=("contour_interval",),
 )

@@ -424,9 +424,10 @@ def test_numbers_have_ranges_and_names_are_upper_case(any_algorithm):
 def test_lines_are_offered_in_the_formats_that_can_be_written(registry):
     algorithm = registry.createAlgorithmById("bareearth:pointcloudtoterrain")
     field = algorithm.parameterDefinition("CONTOURS")
-    assert field.supportedOutputVectorLayerExtensions() == ["gpkg", "geojson", "shp", "fgb"]
+    expected = ["gpkg", "geojson", "shp", "fgb", "dxf"]
+    assert field.supportedOutputVectorLayerExtensions() == expected
     assert field.defaultFileExtension() == "gpkg"
-    assert "dxf" not in field.createFileFilter()
+    assert "kml" not in field.createFileFilter()
 
 
 def test_a_dialog_shows_eight_fields_at_most(any_algorithm):

@@ -46,6 +46,7 @@ GIVEN = {
     "classifyaboveground": {"OUTPUT": "out.laz"},
     "waterclasses": {"OUTPUT": "out.laz"},
     "modelkeypoints": {"OUTPUT": "out.laz"},
+    "clip": {"OUTPUT": "out.laz"},
     "terrainmodel": {"DTM": "dtm.tif", "CHM": "chm.tif"},
     "comparesettings": {"OUTPUT": "page.html", "SETTINGS": ["slope:town", "slope:steep"]},
     "water": {"OUTPUT": "water.gpkg"},
