@@ -28,6 +28,7 @@ from .. import compat
 from ..help_pages import address_of
 from ..i18n import mark, tr
 from ..styles import layers
+from ..styles.loaded import later
 from ..styles.metadata import Origin, settings_of
 from ..styles.stage import Stage
 from .area import check_area_only
@@ -37,6 +38,7 @@ from .inputs import CloudCrs, remember_origin
 from .output_checks import check_outputs
 from .outputs import NOTHING_STAYS, do_not_load, is_blank, places_of, with_outputs_of_step
 from .presets import presets_of
+from .runs import Run, is_remembered, plain_values, remember
 from .stated_crs import crs_of_text, stated_crs_of
 
 _ICONS = Path(__file__).parents[1] / "icons"
@@ -275,6 +277,7 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
             self.stated = stated_crs_of(self, parameters, context)
             self.prepare(parameters, context, FeedbackProgress(feedback))
         self._settings = settings_of(self, parameters, context)
+        self._values = plain_values(self, parameters)
         self.class_counts: Mapping[int, int] = {}
         self._looks: dict[str, layers.Look] = {}
         names = [self.subject, tr(self.run_name or self.title)]
@@ -334,6 +337,9 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
                     details.name, details.forceName = f"{subject}: {label}", True
         origin = Origin.of(self.displayName(), self._settings, commands)
         layers.arrange(context, looks, labels, subject, self._stage, origin)
+        if results and is_remembered(self):
+            project, run = context.project(), Run(self.id(), self._values, results)
+            later(lambda: remember(project, run))
 
 
 def words_in(groups: Iterable[str]) -> list[str]:
