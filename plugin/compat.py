@@ -59,6 +59,13 @@ if hasattr(Qgis, "WkbType"):  # since QGIS 3.30
     NO_GEOMETRY = Qgis.WkbType.NoGeometry
 else:
     NO_GEOMETRY = core.QgsWkbTypes.Type.NoGeometry
+# Units of CRS that are not lengths; moved in QGIS 3.30.
+_UNITS = Qgis.DistanceUnit if hasattr(Qgis, "DistanceUnit") else core.QgsUnitTypes.DistanceUnit
+NO_LENGTHS = (
+    (_UNITS.Degrees, _UNITS.Unknown)
+    if hasattr(_UNITS, "Degrees")
+    else (_UNITS.DistanceDegrees, _UNITS.DistanceUnknownUnit)
+)
 # QGIS 3.34 moved the filters of boxes for layers, too.
 if hasattr(Qgis, "LayerFilter"):
     POINT_CLOUDS = Qgis.LayerFilter.PointCloudLayer
@@ -157,6 +164,18 @@ def place_on_line(settings: core.QgsPalLayerSettings) -> None:
     lines = settings.lineSettings()
     lines.setPlacementFlags(flags)
     settings.setLineSettings(lines)
+
+
+def place_over_points(settings: core.QgsPalLayerSettings) -> None:
+    """Place labels on their points, all of them, also where they overlap."""
+    if hasattr(Qgis, "LabelPlacement"):  # since QGIS 3.26
+        settings.placement = Qgis.LabelPlacement.OverPoint
+        places = settings.placementSettings()
+        places.setOverlapHandling(Qgis.LabelOverlapHandling.AllowOverlapIfRequired)
+        settings.setPlacementSettings(places)
+    else:
+        settings.placement = core.QgsPalLayerSettings.Placement.OverPoint
+        settings.displayAll = True
 
 
 def colour_profile(layer: QgsVectorLayer, colour: str) -> None:

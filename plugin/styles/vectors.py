@@ -1,4 +1,4 @@
-"""Styles of contour lines, of errors at checkpoints, and of water."""
+"""Styles of contour lines, of errors at checkpoints, of water, and of places to review."""
 
 from __future__ import annotations
 
@@ -17,14 +17,15 @@ from qgis.core import (
     QgsTextBufferSettings,
     QgsTextFormat,
     QgsVectorLayer,
+    QgsVectorLayerSimpleLabeling,
 )
 from qgis.PyQt.QtGui import QColor
 
-from ...algorithms.survey.vector_files import CLASS_FIELD
+from ...algorithms.survey.vector_files import ANSWER_FIELD, CLASS_FIELD
 from ...algorithms.tools.check.results import COLOURS, NOT_COUNTED, limits_of
 from ...algorithms.tools.contours import INDEX, Interval
 from .. import compat
-from ..i18n import tr
+from ..i18n import mark, tr
 
 _THIN = {"line_color": "110,72,36,160", "line_width": "0.2"}
 _THICK = {"line_color": "110,72,36,220", "line_width": "0.35"}
@@ -39,6 +40,14 @@ _WATER = {
 }
 _SHORE_COLOUR = "#1450aa"
 _SHORE = {"line_color": _SHORE_COLOUR, "line_width": "0.4"}
+# Of places to review, by their answer: text of the legend, and colour.
+ANSWERS = {
+    "": (mark("To review"), "#c23b3f"),
+    "right": (mark("Right as it is"), "#2e8b57"),
+    "not ground": (mark("Not ground"), "#d97a00"),
+    "ground": (mark("Ground"), "#7a4a1e"),
+    "skip": (mark("Skipped"), "#7d8794"),
+}
 # Of the labels: colours of text and halo.
 _TEXT = (96, 60, 28)
 _HALO = (255, 255, 255, 200)
@@ -69,7 +78,7 @@ def contours(interval: Interval) -> Callable[[QgsVectorLayer], None]:
         if is_drawing:
             return
         labels = QgsRuleBasedLabeling.Rule(None)
-        labels.appendChild(QgsRuleBasedLabeling.Rule(_label(), 0, 0, is_index))
+        labels.appendChild(QgsRuleBasedLabeling.Rule(_height(), 0, 0, is_index))
         layer.setLabeling(QgsRuleBasedLabeling(labels))
         layer.setLabelsEnabled(True)
 
@@ -117,15 +126,28 @@ def water(layer: QgsVectorLayer) -> None:
 
 
 def places(layer: QgsVectorLayer) -> None:
-    """Draw places to review with a red outline, and let their class be chosen in the form."""
-    symbol = QgsFillSymbol.createSimple(
-        {"color": "194,59,63,40", "outline_color": "194,59,63", "outline_width": "0.5"}
-    )
-    layer.setRenderer(QgsSingleSymbolRenderer(symbol))
-    answers = [{tr("Ground"): 2}, {tr("Not ground"): 1}, {tr("Low noise"): 7}, {tr("Water"): 9}]
-    field = layer.fields().lookupField(CLASS_FIELD)
-    layer.setEditorWidgetSetup(field, QgsEditorWidgetSetup("ValueMap", {"map": answers}))
+    """Draw places to review with their rank, coloured by their answer, of which the form asks."""
+    root = QgsRuleBasedRenderer.Rule(None)
+    for answer, (text, colour) in ANSWERS.items():
+        fill = QColor(colour)
+        fill.setAlpha(44)
+        symbol = QgsFillSymbol.createSimple({"outline_color": colour, "outline_width": "0.5"})
+        symbol.symbolLayer(0).setFillColor(fill)
+        rule = f"coalesce(\"{ANSWER_FIELD}\", '') = '{answer}'"
+        root.appendChild(QgsRuleBasedRenderer.Rule(symbol, 0, 0, rule, tr(text)))
+    layer.setRenderer(QgsRuleBasedRenderer(root))
+    layer.setLabeling(QgsVectorLayerSimpleLabeling(_rank()))
+    layer.setLabelsEnabled(True)
     layer.setDisplayExpression('"RANK" || \': \' || "REASON"')
+    choices = [{tr(text): answer} for answer, (text, _) in ANSWERS.items() if answer]
+    classes = [{tr("Ground"): 2}, {tr("Not ground"): 1}, {tr("Low noise"): 7}, {tr("Water"): 9}]
+    fields, form = layer.fields(), layer.editFormConfig()
+    for number in range(fields.count()):
+        form.setReadOnly(number, fields[number].name() not in (ANSWER_FIELD, CLASS_FIELD))
+    layer.setEditFormConfig(form)
+    for name, values in ((ANSWER_FIELD, choices), (CLASS_FIELD, classes)):
+        widget = QgsEditorWidgetSetup("ValueMap", {"map": values})
+        layer.setEditorWidgetSetup(fields.lookupField(name), widget)
 
 
 def low_confidence(layer: QgsVectorLayer) -> None:
@@ -163,18 +185,36 @@ def _ticks() -> QgsLineSymbol:
     return symbol
 
 
-def _label() -> QgsPalLayerSettings:
-    """Return the settings of labels: the height, on the line."""
+def _rank() -> QgsPalLayerSettings:
+    """Return the settings of labels of places: the rank, and whether there is an answer."""
+    settings = _label(9.0, QColor("#5a1414"))
+    marks = (
+        f"WHEN \"{ANSWER_FIELD}\" = 'skip' THEN ' …' WHEN \"{ANSWER_FIELD}\" > '' THEN ' ✓' ELSE ''"
+    )
+    settings.fieldName, settings.isExpression = f'"RANK" || CASE {marks} END', True
+    settings.centroidInside = True
+    compat.place_over_points(settings)
+    return settings
+
+
+def _label(size: float, colour: QColor) -> QgsPalLayerSettings:
+    """Return the settings of labels with a white halo."""
     halo = QgsTextBufferSettings()
     halo.setEnabled(True)
     halo.setSize(_HALO_SIZE)
     halo.setColor(QColor(*_HALO))
     text = QgsTextFormat()
-    text.setSize(_SIZE)
-    text.setColor(QColor(*_TEXT))
+    text.setSize(size)
+    text.setColor(colour)
     text.setBuffer(halo)
     settings = QgsPalLayerSettings()
-    settings.fieldName = "ELEV"
     settings.setFormat(text)
+    return settings
+
+
+def _height() -> QgsPalLayerSettings:
+    """Return the settings of labels of contour lines: the height, on the line."""
+    settings = _label(_SIZE, QColor(*_TEXT))
+    settings.fieldName = "ELEV"
     compat.place_on_line(settings)
     return settings
