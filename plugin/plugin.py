@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from qgis.core import Qgis, QgsApplication, QgsMessageLog, QgsSettings
-from qgis.PyQt.QtCore import QCoreApplication, QTimer, QUrl
+from qgis.PyQt.QtCore import QCoreApplication, Qt, QTimer, QUrl
 from qgis.PyQt.QtGui import QDesktopServices
 from qgis.PyQt.QtWidgets import QPushButton
 
@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 
     from .laz_dialog import LazDialog
     from .provider import BareEarthProvider
+    from .review.dock import ReviewDock
 
 _MENU = "Bare Earth"
 _FIRST = "bareearth:pointcloudtoterrain"
@@ -44,6 +45,7 @@ class BareEarthPlugin:
         self._actions: list[QAction] = []
         self._message: QgsMessageBarItem | None = None
         self._dialog: LazDialog | None = None
+        self._dock: ReviewDock | None = None
         # First, because the algorithms are listed in the user's language.
         self._translator = install()
         self._support = LazSupport(Path(QgsApplication.qgisSettingsDirPath()))
@@ -69,6 +71,7 @@ class BareEarthPlugin:
         self.initProcessing()
         entries = {
             tr("Point cloud to terrain…"): self.show_terrain,
+            tr("Review"): self.show_review,
             tr("LAZ support…"): self.show_laz_support,
             tr("Remove downloaded point clouds"): self.clear_cache,
             tr("Documentation"): self.show_help,
@@ -103,6 +106,21 @@ class BareEarthPlugin:
         self._dialog.show()
         self._dialog.raise_()
 
+    def show_review(self) -> None:
+        """Open the dock for places to review, with those of the last run."""
+        missing = missing_packages(["numpy", "scipy", "laspy"])
+        if missing:
+            text = f"{', '.join(missing)} must be installed first. {install_hint(missing)}"
+            self._iface.messageBar().pushMessage(_MENU, text, Qgis.MessageLevel.Warning)
+            return
+        # Imported here, so that QGIS starts faster, and since it needs these packages.
+        from .review.dock import ReviewDock
+
+        if self._dock is None:
+            self._dock = ReviewDock(self._iface)
+            self._iface.addDockWidget(Qt.DockWidgetArea.BottomDockWidgetArea, self._dock)
+        self._dock.setUserVisible(True)
+
     def clear_cache(self) -> None:
         """Remove what is kept of remote point clouds, and tell how much that was."""
         from ..algorithms.remote.cache import cache_of, clear
@@ -120,7 +138,7 @@ class BareEarthPlugin:
         QDesktopServices.openUrl(QUrl(address_of("index")))
 
     def unload(self) -> None:
-        """Remove provider, menu, message and dialog."""
+        """Remove provider, menu, message, dialog and dock."""
         if self._provider is not None:
             registry = QgsApplication.processingRegistry()
             registry.providerAdded.disconnect(self._provider.load_models)
@@ -136,7 +154,11 @@ class BareEarthPlugin:
             self._dialog.close()
             self._dialog.deleteLater()
             self._dialog = None
-
+        if self._dock is not None:
+            self._dock.stop()
+            self._iface.removeDockWidget(self._dock)
+            self._dock.deleteLater()
+            self._dock = None
         if self._translator is not None:
             QCoreApplication.removeTranslator(self._translator)
         # Updates put the folder of the plugin back before this.

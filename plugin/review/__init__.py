@@ -1,0 +1,1 @@
+"""The dock *Bare Earth > Review*: places to review are answered one after another."""
