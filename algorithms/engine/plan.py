@@ -120,10 +120,8 @@ class Plan:
         skipped = {tile.path for tile in self.empty}
         seen = [tile for tile in survey.tiles if tile.path not in skipped]
         # The points of the others take part only in the first step.
-        self.shown = dataclasses.replace(
-            survey,
-            tiles=tuple(t for t in survey.tiles if not any(step.is_far(t) for step in steps)),
-        )
+        shown = (t for t in survey.tiles if t.path not in skipped or not self._is_far(t))
+        self.shown = dataclasses.replace(survey, tiles=tuple(shown))
         self.surveys = [survey, *[self.shown] * (len(steps) - 1)]
         self.todo: list[LasFile] = []  # the files that are to be done
         for number, tile in enumerate(seen, start=1):
@@ -261,7 +259,11 @@ class Plan:
         if not self._shows_more:
             return []
         others = {tile.path for tile in self.todo}.union(self.failures)
-        return [tile for tile in self.shown.tiles if tile.path not in others]
+        tiles = (tile for tile in self.shown.tiles if tile.path not in others)
+        return [tile for tile in tiles if not self._is_far(tile)]
+
+    def _is_far(self, tile: LasFile) -> bool:
+        return any(step.is_far(tile) for step in self.steps)
 
     def results(self, outputs: Survey, empty: Iterable[LasFile]) -> Results:
         """Return where to read the points that rasters are made from, given the files that were

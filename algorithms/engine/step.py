@@ -190,7 +190,7 @@ class PointStep(Step):
         return False
 
     def is_far(self, tile: LasFile) -> bool:
-        """Return whether the header of a file shows that later steps need none of its points."""
+        """Return whether the header of a file shows that none of its points gets a value."""
         return self.skips(tile)
 
     def tell_of_survey(

@@ -129,9 +129,7 @@ class LabelGround(PointStep):
         return self.area is not None
 
     def is_far(self, tile: LasFile) -> bool:
-        """Return whether only the area is written, and no point of a file lies near it."""
-        if not self.output.area_only:
-            return False
+        """Return whether no point of a file lies near the area."""
         box = self.chooser.box_near(read_crs(tile))
         return box is not None and not Area(box).may_touch(tile.outer_box)
 
