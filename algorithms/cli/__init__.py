@@ -14,7 +14,7 @@ from ..core.words import Flags, use_names
 from ..engine.memory import share_one_heap
 from ..tools.listing import COMPOSITIONS, FILE_TOOLS, MAP_TOOLS, POINT_TOOLS
 from .commands import tool_command
-from .options import DONE, FAILED, USAGE, Command
+from .options import DONE, FAILED, USAGE, Command, keep_what_was_given
 
 
 def _add_cache(parser: argparse.ArgumentParser, arguments: Sequence[str]) -> None:
@@ -54,6 +54,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     names = use_names(Flags())
     try:
         options = _parser(arguments).parse_args(arguments)
+        keep_what_was_given(options)
         return options.run(options)
     except SystemExit as error:  # argparse has printed the error
         return error.code if isinstance(error.code, int) else USAGE

@@ -50,13 +50,22 @@ def chosen(options: argparse.Namespace) -> list[ParameterSet]:
     return [_from_options(group, options) for group in options.declared]
 
 
+def keep_what_was_given(options: argparse.Namespace) -> None:
+    """Put the names of the parameters that were given into `named`, and defaults for the others."""
+    declared = [one for group in getattr(options, "declared", ()) for one in group.declarations()]
+    options.named = {one.name for one in declared if hasattr(options, one.name)}
+    for one in declared:
+        if one.name not in options.named:
+            setattr(options, one.name, one.default)
+
+
 def _add_options(
     parser: argparse.ArgumentParser | argparse._ArgumentGroup, declared: type[ParameterSet]
 ) -> None:
     for parameter in declared.declarations():
         add = partial(
             parser.add_argument, "--" + parameter.name.replace("_", "-"), dest=parameter.name,
-            default=parameter.default, help=_help_of(parameter),
+            default=argparse.SUPPRESS, help=_help_of(parameter),
         )  # fmt: skip
         choices = list(parameter.choices)
         if parameter.kind == "boolean":

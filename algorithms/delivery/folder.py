@@ -73,7 +73,8 @@ class DeliveryFolder:
 
     def check(self, sources: Sequence[Path]) -> None:
         """Refuse, before any work, a folder with other files, or one that cannot be made."""
-        check_lengths(self.path, [f"{MARKS}/{QUALITY}/strip_differences.tif"])
+        with write_errors_told(self.path):
+            check_lengths(self.path, [f"{MARKS}/{QUALITY}/strip_differences.tif"])
         if not self.path.exists():
             check_output(self.path)
             return

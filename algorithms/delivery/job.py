@@ -6,7 +6,7 @@ import os
 import time
 from dataclasses import replace
 from pathlib import Path
-from typing import Any, Callable, Iterable, Mapping, NamedTuple, Sequence, cast
+from typing import Any, Callable, Collection, Iterable, Mapping, NamedTuple, Sequence, cast
 
 from ..classes.selection import Selection
 from ..core.errors import BareEarthError
@@ -71,6 +71,7 @@ class DeliveryJob(Settings):
         folder: DeliveryFolder,  # where many files are made, as finished ones stay after a cancel
         unpacked: Path,  # a folder for records that are decompressed
         workers: Workers | None,  # for many files
+        named: Collection[str] = (),  # the parameters that the user gave
     ) -> None:
         self.content, self.summary = content, summary
         self.survey = open_survey(sources)  # of the raw files
@@ -96,7 +97,7 @@ class DeliveryJob(Settings):
         if content.contour_metres is not None:
             factor = 1.0 if self.survey.crs.vertical_unit == 1.0 else _FEET_A_METRE
             values["contour_interval"] = content.contour_metres * factor
-        super().__init__(sets, values)
+        super().__init__(sets, values, named)
         self.sources = sources  # the points that the next row reads
         # By name: the inputs of the user, what is wanted, and the files and results of the rows.
         self.known: dict[str, Any] = {**inputs, **wanted, "roads": self.set_of(Selection).roads}

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import os
 from datetime import date
 from pathlib import Path
-from typing import Iterator, Mapping, Sequence
+from typing import Collection, Iterator, Mapping, Sequence
 from urllib.parse import quote
 
 from ..classes.selection import Selection
@@ -207,7 +208,7 @@ def _files(root: Path, files: Sequence[Path]) -> Html:
     left = len(points) - _MOST_ROWS
     return section(
         "Files",
-        table([(_broken(link(quote(name), name)), about) for name, about in rows]),
+        table([(_broken(link(quote(os.fsencode(name)), name)), about) for name, about in rows]),
         paragraph(f"{left:,} more files of points are not listed." if left > 0 else ""),
     )
 
@@ -231,7 +232,7 @@ def _settings(job: DeliveryJob) -> Html:
 
 
 def settings_of(job: DeliveryJob) -> dict[str, dict[str, str]]:
-    """Return what differs from the defaults, by the name of the tool and of the parameter."""
+    """Return what was asked for or differs from the defaults, by tool and parameter."""
     method, scheme = job.set_of(type(job.method)), job.set_of(ThenAboveGround)
     sets: dict[str, ParameterSet] = {
         method_of(method).label: method,
@@ -247,17 +248,22 @@ def settings_of(job: DeliveryJob) -> dict[str, dict[str, str]]:
         sets["Classes of water"] = job.set_of(WaterClasses)
     if job.content.contours:
         sets["Contour lines"] = Contours.among(job.sets)
-    return {name: _changed(values) for name, values in sets.items()}
+    asked = job.asked()
+    return {name: _changed(values, asked) for name, values in sets.items()}
 
 
-def _changed(given: ParameterSet) -> dict[str, str]:
+def _changed(given: ParameterSet, asked: Collection[str]) -> dict[str, str]:
     values = {}
     for declared in given.declarations():
         value = getattr(given, declared.name)
-        if value != declared.default:
-            many = value if isinstance(value, tuple) else (value,)
-            values[declared.name] = " ".join(map(_shown, many))
+        if value != declared.default or declared.name in asked:
+            values[declared.name] = setting_in_words(value)
     return values
+
+
+def setting_in_words(value: object) -> str:
+    """Return the value of a parameter as a person reads it."""
+    return " ".join(map(_shown, value if isinstance(value, tuple) else (value,)))
 
 
 def _shown(value: str | float | None) -> str:

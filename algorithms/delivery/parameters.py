@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Iterable, Mapping, TypeVar
+from typing import Collection, Iterable, Mapping, TypeVar
 
 from ..classes.ground_classes import GroundClasses
 from ..classes.selection import Selection
-from ..core.parameters import ParameterSet, parameter, parameter_of
+from ..core.parameters import Declaration, ParameterSet, parameter, parameter_of
 from ..engine.memory import Resources
 from ..engine.options import TileInput, TileOutput
 from ..filters import DEFAULT_METHOD, METHODS
@@ -129,12 +129,23 @@ class DeliveryWater(Water):
 
 
 class Settings:
-    """The parameters of a delivery: the values of the user, or else those of the delivery."""
+    """The parameters of a delivery: the values that the user gave, even if they equal the defaults,
+    or else those of the delivery.
+    """
 
-    def __init__(self, sets: Iterable[ParameterSet], values: Mapping[str, object]) -> None:
-        self.values = dict(values)  # of parameters that the user left at their defaults, by name
-        named = (values.parameters if isinstance(values, TileMethod) else values for values in sets)
-        self.sets: list[ParameterSet] = [*named, METHODS[DEFAULT_METHOD].parameters()]
+    def __init__(
+        self,
+        sets: Iterable[ParameterSet],
+        values: Mapping[str, object],
+        named: Collection[str] = (),
+    ) -> None:
+        self.values = dict(values)  # of parameters that the user did not give, by name
+        self.named = frozenset(named)  # those that the user gave
+        of_user = [
+            values.parameters if isinstance(values, TileMethod) else values for values in sets
+        ]
+        self._count = len(of_user)
+        self.sets: list[ParameterSet] = [*of_user, METHODS[DEFAULT_METHOD].parameters()]
         self.sets.append(GroundClasses.of_selection(self.set_of(Selection)))
 
     def sets_of(self, tool: Tool) -> list[ParameterSet]:
@@ -147,12 +158,13 @@ class Settings:
         return [self.set_of(kind) for kind in kinds]
 
     def set_of(self, kind: type[GivenSet]) -> GivenSet:
-        """Return parameters, with the values of the delivery where the user left the defaults."""
+        """Return parameters, with the values of the delivery where the user gave none."""
         values: dict[str, object] = {}
         given = self.given(kind)
+        asked = self.asked() if any(isinstance(known, kind) for known in self.sets) else {}
         for declared in given.declarations():
             value, name = getattr(given, declared.name), declared.name
-            if value == declared.default:
+            if value == declared.default and name not in asked:
                 value = self.values.get(name, value)
                 if declared.choices and value not in declared.choices:
                     value = declared.default
@@ -164,6 +176,34 @@ class Settings:
     def given(self, kind: type[GivenSet]) -> GivenSet:
         """Return parameters as the user gave them."""
         return next((known for known in self.sets if isinstance(known, kind)), kind())
+
+    def asked(self) -> dict[str, object]:
+        """Return the values that the user gave, by name; what is empty is left to the delivery."""
+        values = self._of_user()
+        return {
+            declared.name: value
+            for declared, value in values
+            if declared.name in self.named or value != declared.default
+        }
+
+    def chosen(self) -> dict[str, object]:
+        """Return the values of the delivery that replace defaults, by name."""
+        asked = self.asked()
+        return {
+            declared.name: self.values[declared.name]
+            for declared, value in self._of_user()
+            if declared.name not in asked
+            and self.values.get(declared.name, value) not in (value, None)
+            and (not declared.choices or self.values[declared.name] in declared.choices)
+        }
+
+    def _of_user(self) -> list[tuple[Declaration, object]]:
+        """Return the declarations and values of the parameters that a user can give."""
+        return [
+            (declared, getattr(values, declared.name))
+            for values in self.sets[: self._count]
+            for declared in values.declarations()
+        ]
 
     @property
     def method(self) -> ParameterSet:

@@ -6,7 +6,7 @@ import contextlib
 from dataclasses import asdict
 from functools import partial
 from pathlib import Path
-from typing import Any, Callable, Iterator, Mapping, Sequence
+from typing import Any, Callable, Collection, Iterator, Mapping, Sequence
 
 from ..core.errors import BareEarthError, Cancelled, FinishedFilesStay
 from ..core.files import temporary_folder
@@ -21,7 +21,7 @@ from ..tools.listing import POINT_TOOLS
 from .deliveries import DELIVERIES
 from .folder import PAGE, DeliveryFolder
 from .job import DeliveryJob
-from .page import delivery_html, settings_of
+from .page import delivery_html, setting_in_words, settings_of
 from .rows import rows_of
 from .summary import DeliverySummary
 
@@ -34,8 +34,11 @@ def deliver(
     inputs: Mapping[str, Any],
     progress: Progress = SILENT,
     workers: Workers | None = None,
+    named: Collection[str] = (),
 ) -> DeliverySummary:
-    """Make all outputs of a job from raw points: a delivery, given parameters and inputs."""
+    """Make all outputs of a job from raw points: a delivery, given parameters, inputs, and the
+    names of the parameters that the user gave, which the delivery does not change.
+    """
     if delivery not in DELIVERIES:
         raise BareEarthError(
             f"There is no delivery '{delivery}'. Choose one of {', '.join(DELIVERIES)}."
@@ -55,7 +58,8 @@ def deliver(
         )
         folders = DeliveryFolder(working), place, unpacked
         content = DELIVERIES[delivery]
-        job = DeliveryJob(content, files, sets, inputs, summary, *folders, workers)
+        job = DeliveryJob(content, files, sets, inputs, summary, *folders, workers, named)
+        _tell_settings(job, messages)
         summary.seconds = job.seconds
         try:
             job.work(rows_of(job), messages.part(0.01, 0.97))
@@ -74,6 +78,7 @@ def deliver(
             "delivery": delivery,
             "version": __version__,
             "settings": settings_of(job),
+            "asked": sorted(job.asked()),
             "points": summary.point_count,
             "ground": summary.ground_count,
             "classes": summary.class_counts,
@@ -82,6 +87,18 @@ def deliver(
         }
         place.replace(working, job.changed_files, record)
     return summary
+
+
+def _tell_settings(job: DeliveryJob, progress: Progress) -> None:
+    """Tell which parameters the user gave, and which the delivery sets."""
+    asked, chosen = (
+        ", ".join(f"{name.replace('_', ' ')} {setting_in_words(value)}" for name, value in found)
+        for found in (job.asked().items(), job.chosen().items())
+    )
+    if asked:
+        progress.info(f"As asked: {asked}.")
+    if chosen:
+        progress.choice(f"{job.content.label}: {chosen}.")
 
 
 class _Messages(PassingOn):

@@ -183,7 +183,8 @@ class Function:
             for argument in (*self.positional, *self.keywords):
                 if argument.kind in _CONVERTERS:
                     values[argument.name] = _CONVERTERS[argument.kind](values[argument.name])
-            return self.work(SimpleNamespace(**values), self.sets_of(values, named))
+            given = SimpleNamespace(**values, named={*named})
+            return self.work(given, self.sets_of(values, named))
 
         function.__name__ = function.__qualname__ = name
         function.__module__ = module

@@ -229,7 +229,8 @@ def _of_composition(command: str) -> Function:
         inputs["crs"] = values.crs
         workers = workers_of(values, Resources.among(sets))
         places, table = (values.sources, values.output), getattr(values, tool.chosen)
-        return tool.work(*places, table, sets, inputs, progress_of(values.progress), workers)
+        progress = progress_of(values.progress)
+        return tool.work(*places, table, sets, inputs, progress, workers, values.named)
 
     tables = (f"{name}: {table.about}" for name, table in tool.tables.items())
     help = " ".join((tool.chosen_help, *tables))
