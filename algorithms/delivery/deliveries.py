@@ -156,3 +156,13 @@ DELIVERIES = {
     ),
 }  # fmt: skip
 DEFAULT_DELIVERY = "survey"
+
+
+def names_of_values() -> frozenset[str]:
+    """Return the names of all parameters that deliveries set where a user gives no value."""
+    values = (
+        delivery.values_with(specification)
+        for delivery in DELIVERIES.values()
+        for specification in STATED
+    )
+    return frozenset({"contour_interval"}.union(*values)) - {"specification"}

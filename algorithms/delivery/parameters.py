@@ -178,32 +178,30 @@ class Settings:
         return next((known for known in self.sets if isinstance(known, kind)), kind())
 
     def asked(self) -> dict[str, object]:
-        """Return the values that the user gave, by name; what is empty is left to the delivery."""
-        values = self._of_user()
-        return {
-            declared.name: value
-            for declared, value in values
-            if declared.name in self.named or value != declared.default
-        }
+        """Return the values that the user gave, by name."""
+        asked: dict[str, object] = {}
+        for values, declared in self._of_user():
+            value = getattr(values, declared.name)
+            # QGIS chooses the format of the points.
+            is_changed = value != declared.default and not isinstance(values, TileOutput)
+            if is_changed or declared.name in self.named:
+                asked[declared.name] = value
+        return asked
 
     def chosen(self) -> dict[str, object]:
         """Return the values of the delivery that replace defaults, by name."""
-        asked = self.asked()
-        return {
-            declared.name: self.values[declared.name]
-            for declared, value in self._of_user()
-            if declared.name not in asked
-            and self.values.get(declared.name, value) not in (value, None)
-            and (not declared.choices or self.values[declared.name] in declared.choices)
-        }
+        asked, chosen = self.asked(), dict[str, object]()
+        for _, declared in self._of_user():
+            value = self.values.get(declared.name, declared.default)
+            is_possible = not declared.choices or value in declared.choices
+            if declared.name not in asked and value != declared.default and is_possible:
+                chosen[declared.name] = value
+        return chosen
 
-    def _of_user(self) -> list[tuple[Declaration, object]]:
-        """Return the declarations and values of the parameters that a user can give."""
-        return [
-            (declared, getattr(values, declared.name))
-            for values in self.sets[: self._count]
-            for declared in values.declarations()
-        ]
+    def _of_user(self) -> list[tuple[ParameterSet, Declaration]]:
+        """Return the parameters that a user can give, with their sets."""
+        sets = self.sets[: self._count]
+        return [(values, declared) for values in sets for declared in values.declarations()]
 
     @property
     def method(self) -> ParameterSet:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextlib
 from html import escape
 from pathlib import Path
-from typing import Iterable, Iterator, Mapping, Union
+from typing import Collection, Iterable, Iterator, Mapping, Union
 
 from qgis.core import (
     QgsProcessingAlgorithm,
@@ -137,7 +137,11 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         for declared in self.parameter_sets():
             for parameter in declared.declarations():
                 if parameter.name not in self.unused:
-                    super().addParameter(field_of(parameter, self._is_shown(parameter)))
+                    super().addParameter(self.declared_field(parameter))
+
+    def declared_field(self, declaration: Declaration) -> QgsProcessingParameterDefinition:
+        """Return the field of a declared parameter."""
+        return field_of(declaration, self._is_shown(declaration))
 
     def addParameter(self, field: QgsProcessingParameterDefinition, help: str = "") -> bool:
         """Add a field to the dialog, with its label in the user's language."""
@@ -372,10 +376,14 @@ def errors_for_qgis() -> Iterator[None]:
 
 
 def command_line(
-    command: str, files: list[str], chosen: list[ParameterSet], options: Options
+    command: str,
+    files: list[str],
+    chosen: list[ParameterSet],
+    options: Options,
+    named: Collection[str] = (),
 ) -> str:
     """Return the command line, of a subcommand of `bare-earth` and its files, that does the same
-    without QGIS; default values and empty options are left out.
+    without QGIS; default values that are not `named` and empty options are left out.
     """
     words = ["bare-earth", command, *files]
     for option, value in options.items():
@@ -385,7 +393,7 @@ def command_line(
     for parameters in chosen:
         for declared in parameters.declarations():
             value = getattr(parameters, declared.name)
-            if value != declared.default:
+            if value != declared.default or declared.name in named:
                 words += _option(declared.name.replace("_", "-"), value)
     return shell_line(words)
 

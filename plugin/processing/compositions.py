@@ -5,13 +5,13 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Iterator, Sequence
 
-from qgis.core import QgsProcessingContext
+from qgis.core import QgsProcessingContext, QgsProcessingParameterDefinition
 
 from ...algorithms.classes.kept_classes import GROUND
 from ...algorithms.classes.selection import Selection
 from ...algorithms.core.files import split_name
-from ...algorithms.core.parameters import ParameterSet
-from ...algorithms.delivery.deliveries import DELIVERIES
+from ...algorithms.core.parameters import Declaration, ParameterSet
+from ...algorithms.delivery.deliveries import DELIVERIES, names_of_values
 from ...algorithms.delivery.folder import DeliveryFolder
 from ...algorithms.delivery.parameters import NO_DELIVERY, DeliveryChoice, DeliveryTerrain
 from ...algorithms.delivery.summary import DeliverySummary
@@ -30,6 +30,7 @@ from ..styles import layers
 from .base import command_line
 from .classified import show_classified
 from .feedback import FeedbackProgress, Refusal
+from .fields import field_of
 from .outputs import after_cancel, do_not_load, given_path, point_cloud_formats
 from .tool_inputs import Request
 from .tools import ToolAlgorithm
@@ -59,6 +60,13 @@ class CompositionAlgorithm(ToolAlgorithm):
     def __init__(self, tool: Composition = TOOL) -> None:
         super().__init__(tool)
         self._inputs, self._outputs = list(tool.all_inputs), list(tool.dialog_outputs())
+
+    def declared_field(self, declaration: Declaration) -> QgsProcessingParameterDefinition:
+        """Return the field of a declared parameter, empty at first if deliveries set its value."""
+        is_open = declaration.name in names_of_values() and declaration.default is not None
+        is_open &= declaration.kind in ("boolean", "choice")
+        no_choice = mark("From the delivery") if is_open else ""
+        return field_of(declaration, self._is_shown(declaration), no_choice)
 
     def find_inputs(self, parameters: dict[str, object], context: QgsProcessingContext) -> None:
         """Find the input files."""
@@ -139,9 +147,13 @@ class CompositionAlgorithm(ToolAlgorithm):
         folder = self.parameterAsString(parameters, FOLDER, context)
         self._find_late(request)
         words = [name, *self.source_words(), folder]
-        progress.command(command_line("deliver", words, sets, self._options_of_inputs()))
+        named = {
+            one for one in names_of_values() if not compat.is_empty(parameters.get(one.upper()))
+        }
+        options = self._options_of_inputs()
+        progress.command(command_line("deliver", words, sets, options, named))
         inputs = {name: found.value for name, found in self._given.items()}
-        done = self._tool.work(self.inputs, folder, name, sets, inputs, progress)
+        done = self._tool.work(self.inputs, folder, name, sets, inputs, progress, None, named)
         progress.share(done.ground_count, done.point_count, bool(inputs["area"]))
         progress.info("\n".join(f"{title}: {value}" for title, value in done.accuracy()))
         self._show_layers(done, DELIVERIES[name].pictures[0], context)

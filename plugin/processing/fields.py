@@ -16,7 +16,7 @@ from qgis.core import (
 from ...algorithms.core.parameters import Declaration, ParameterSet
 from .. import compat
 from ..i18n import mark, tr
-from .choices import ChoiceParameter, value_of, values_of, with_labels
+from .choices import OFF, ON, ChoiceParameter, value_of, values_of, with_labels
 from .feedback import Refusal
 
 # As a name, so that the widget is imported only in dialogs, not in qgis_process.
@@ -29,14 +29,19 @@ _MOST_EXPLAINED = 12
 
 
 def field_of(
-    declaration: Declaration, is_shown: bool | None = None
+    declaration: Declaration, is_shown: bool | None = None, no_choice: str = ""
 ) -> QgsProcessingParameterDefinition:
     """Return the Processing parameter for a declared one, with label, unit, limits, default and
-    help, shown or advanced as declared unless `is_shown` says.
+    help, shown or advanced as declared unless `is_shown` says; `no_choice` is the label of no value
+    for a choice or boolean that is empty at first.
     """
     name, label = declaration.name.upper(), title_of(declaration)
     default, optional = declaration.default, declaration.optional
-    if declaration.kind == "choices":
+    if no_choice:
+        choices = declaration.choices or {OFF: "No", ON: "Yes"}
+        field = ChoiceParameter(name, label, list(choices), False, None, True, True)
+        field = with_labels(field, list(map(tr, choices.values())), tr(no_choice))
+    elif declaration.kind == "choices":
         field = ChoiceParameter(
             name, label, list(declaration.choices), True, list(default), optional, True
         )
@@ -131,14 +136,18 @@ def _value(
     name = declaration.name.upper()
     given = parameters.get(name)
     if declaration.kind == "boolean":
-        return algorithm.parameterAsBool(parameters, name, context)
+        if not isinstance(algorithm.parameterDefinition(name), ChoiceParameter):
+            return algorithm.parameterAsBool(parameters, name, context)
+        given = value_of("" if compat.is_empty(given) else given, [OFF, ON])
+        return given in (ON, True) if given != "" else declaration.default
     if name in parameters and (compat.is_null(given) or given == ""):
         # The user emptied the field; parameterAs... would return the default.
         return None if declaration.optional else _default_of(declaration)
     if declaration.kind == "choice":
         if isinstance(given, (str, int)):
             return value_of(given, list(declaration.choices))
-        return algorithm.parameterAsEnumString(parameters, name, context) or None
+        chosen = algorithm.parameterAsEnumString(parameters, name, context)
+        return chosen or (None if declaration.optional else declaration.default)
     if declaration.kind == "choices":
         if isinstance(given, (str, list, tuple)):
             return values_of(given, list(declaration.choices))

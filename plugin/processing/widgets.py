@@ -36,7 +36,7 @@ from ...algorithms.remote.addresses import is_address
 from .. import compat
 from ..i18n import tr
 from ..styles.loaded import file_of
-from .choices import LABELS, ChoiceParameter, value_of, values_of
+from .choices import LABELS, NO_CHOICE, ChoiceParameter, value_of, values_of
 from .compositions import DELIVERY, FOLDER
 from .remote import ADDRESS, PART, REMOTE, extent_of_map
 
@@ -185,9 +185,11 @@ class _ChoiceBox(_LabelledBox):
         """Return the box, with the default chosen."""
         parameter = self.parameterDefinition()
         box = _narrow(QComboBox())
+        if label := parameter.metadata().get(NO_CHOICE):
+            box.addItem(label, None)
         for label, value in zip(parameter.metadata()[LABELS], parameter.options()):
             box.addItem(label, value)
-        box.setCurrentIndex(box.findData(parameter.defaultValue()))
+        box.setCurrentIndex(max(box.findData(parameter.defaultValue()), 0))
         box.currentIndexChanged.connect(lambda _: self.widgetValueHasChanged.emit(self))
         return box
 

@@ -73,5 +73,5 @@ def test_a_read_only_disk_is_named(cloud, tmp_path, monkeypatch):
         raise OSError(30, "Read-only file system")
 
     monkeypatch.setattr(folder_module, "check_lengths", refuse)
-    with pytest.raises(BareEarthError, match="Cannot write .*out: the disk is read-only"):
+    with pytest.raises(BareEarthError, match=r"Cannot write .*out: the disk is read-only"):
         bare_earth.deliver(cloud, tmp_path / "out", delivery="forestry", crs=25832)

@@ -158,6 +158,44 @@ def test_the_command_in_the_log_does_the_same(deliver, tmp_path):
     assert settings["TIN densification"] == {"preset": "town"}
 
 
+@pytest.mark.parametrize(
+    ("given", "preset", "low_noise"),
+    [
+        ({}, "site", "on"),
+        ({"PRESET": None, "LOW_NOISE_CLASS": None}, "site", "on"),
+        ({"PRESET": "automatic", "LOW_NOISE_CLASS": False}, "automatic", "off"),
+        ({"PRESET": "0", "LOW_NOISE_CLASS": "false"}, "automatic", "off"),
+        ({"LOW_NOISE_CLASS": True}, "site", "on"),
+    ],
+)
+def test_a_value_that_was_given_is_not_that_of_the_delivery(
+    deliver, tmp_path, given, preset, low_noise
+):
+    _, _, log = deliver("drone-site", DTM_CELL_SIZE=2, **given)
+    record = json.loads((tmp_path / "delivery" / "delivery.json").read_text(encoding="utf-8"))
+    assert record["settings"]["TIN densification"]["preset"] == preset
+    assert record["settings"]["Classes"]["low_noise_class"] == low_noise
+    names = {name.lower() for name, value in given.items() if value is not None}
+    assert {*record["asked"]} == {"dtm_cell_size", *names}
+    (command,) = [shlex.split(text) for text in log.said if text.startswith("bare-earth ")]
+    assert ("--preset" in command) == ("preset" in names)
+    assert ("--no-low-noise-class" in command) == (low_noise == "off")
+    assert ("preset site" in log.text) == (preset == "site")
+
+
+def test_what_deliveries_set_is_empty_in_the_dialog_at_first(scene, dialog_of):
+    dialog = dialog_of(ALL_IN_ONE)
+    dialog.setParameters({"INPUT": str(scene.path)})
+    given = dialog.createProcessingParameters()
+    for name in ("PRESET", "LOW_NOISE_CLASS", "HIGH_NOISE_CLASS", "PIT_FREE"):
+        assert given.get(name) is None
+    dialog.setParameters({**given, "PRESET": "automatic", "LOW_NOISE_CLASS": False})
+    given = dialog.createProcessingParameters()
+    assert (given["PRESET"], given["LOW_NOISE_CLASS"]) == ("automatic", "off")
+    dialog.setParameters({**given, "LOW_NOISE_CLASS": True})
+    assert dialog.createProcessingParameters()["LOW_NOISE_CLASS"] == "on"
+
+
 def test_the_picture_that_matters_is_on_top(deliver):
     _, root, _ = deliver("archaeology", DTM_CELL_SIZE=1)
     visible = shown(root)
