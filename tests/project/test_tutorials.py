@@ -138,7 +138,7 @@ def test_the_tutorials_are_those_of_all_deliveries():
 
 
 def test_make_hands_the_job_to_the_demo():
-    assert "python -m demo $(if $(JOB),--job $(JOB))" in (ROOT / "Makefile").read_text()
+    assert "demo -m demo $(if $(JOB),--job $(JOB))" in (ROOT / "Makefile").read_text()
 
 
 @pytest.mark.parametrize("path", PAGES, ids=lambda path: path.stem)
