@@ -63,9 +63,13 @@ class CellWindow(NamedTuple):
             self.row - cells, self.column - cells, self.rows + margins, self.columns + margins
         )
 
-    def strip(self, start: int, end: int) -> CellWindow:
-        """Return the cells of some rows, which are counted from the north."""
-        return self._replace(row=self.row + self.rows - end, rows=end - start)
+    def part(self, start: int, end: int, first: int, last: int) -> CellWindow:
+        """Return the cells of some rows, counted from the north, and of some columns; they can lie
+        beyond the window.
+        """
+        return CellWindow(
+            self.row + self.rows - end, self.column + first, end - start, last - first
+        )
 
     def within(self, window: CellWindow) -> CellWindow:
         """Return the cells that both windows share; it is empty if they are apart."""

@@ -14,7 +14,7 @@ from ..core.progress import Progress
 from ..crs.stated import crs_text
 from ..rasters.geotiff import Raster as FileRaster
 from ..rasters.geotiff import RasterGrid
-from ..rasters.writing import Band, Rows
+from ..rasters.writing import Band, RasterCells
 from .transform import transform_of
 
 if TYPE_CHECKING:
@@ -153,16 +153,20 @@ class Collected:
     def add(
         self,
         path: Path,
-        values: np.ndarray | Rows,
+        values: np.ndarray | RasterCells,
         grid: RasterGrid | FileRaster,
         nodata: float,
         progress: Progress,
         shows: str,
     ) -> None:
         """Add a raster; its name is that of the path."""
-        rows = values if isinstance(values, Rows) else Rows(values.shape, "", [values])
-        cells = np.concatenate([*rows.strips], axis=-2)
-        about = Band.of(grid, nodata, shows, rows.bands)
+        given = values if isinstance(values, RasterCells) else RasterCells.of(values)
+        shape = given.shape if given.bands == 1 else (given.bands, *given.shape)
+        cells = np.full(shape, nodata, given.kind)
+        for row, column, part in given.parts:
+            rows, columns = part.shape[-2:]
+            cells[..., row : row + rows, column : column + columns] = part
+        about = Band.of(grid, nodata, shows, given.bands)
         west, a, b, north, d, e = grid.geotransform
         transform, name = (a, b, west, d, e, north), path.name
         self.rasters[name] = Raster(cells, transform, about.wkt, nodata, name, about.description)

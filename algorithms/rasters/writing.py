@@ -7,7 +7,7 @@ import math
 import os
 import shutil
 from pathlib import Path
-from typing import TYPE_CHECKING, Callable, Iterable, NamedTuple
+from typing import TYPE_CHECKING, Any, Callable, Iterable, NamedTuple
 
 import numpy as np
 
@@ -20,13 +20,14 @@ from ..crs.system import unit_name, unit_symbol
 from ..crs.wkt import of_map, read_wkt, with_unit_of_heights
 from .geotiff import Raster, RasterGrid
 from .libraries import GdalErrors, library
+from .sparse import SIDE, Part, write_sparse
 
 if TYPE_CHECKING:
     from rasterio.crs import CRS
 
 # Most cells that are collected in memory, which is faster than in a temporary file.
 _MOST_IN_MEMORY = 64_000_000
-BLOCK_SIDE = 256  # cells along a side of a block of the file
+BLOCK_SIDE = SIDE  # cells along a side of a block of the file
 _OPTIONS = {
     "COMPRESS": "DEFLATE", "PREDICTOR": "YES", "BLOCKSIZE": str(BLOCK_SIDE), "BIGTIFF": "IF_SAFER",
     "OVERVIEW_RESAMPLING": "AVERAGE", "NUM_THREADS": "ALL_CPUS",
@@ -35,6 +36,10 @@ _OPTIONS = {
 _TILE = 256
 _BYTES_ABOUT_A_TILE = 512
 _WAITING = {"TILED": "YES", "BIGTIFF": "IF_SAFER", "SPARSE_OK": "TRUE"}
+_SPARSE = {
+    **_WAITING, "BIGTIFF": "YES", "ENDIANNESS": "LITTLE", "COMPRESS": "DEFLATE",
+    "BLOCKXSIZE": str(BLOCK_SIDE), "BLOCKYSIZE": str(BLOCK_SIDE), "INTERLEAVE": "PIXEL",
+}  # fmt: skip
 
 
 def raster_file(outputs: Outputs, path: Path) -> Path:
@@ -43,14 +48,25 @@ def raster_file(outputs: Outputs, path: Path) -> Path:
     return outputs.file(path, [f"{path.name}.aux.xml"])
 
 
-class Rows(NamedTuple):
-    """The cells of a raster, in strips of rows."""
+class RasterCells(NamedTuple):
+    """The cells of a raster, in parts; those of no part have no data."""
 
     shape: tuple[int, int]  # rows and columns of the raster
     kind: str  # "float32" or "uint8"
-    # (some rows, columns) or (bands, some rows, columns), from north to south.
-    strips: Iterable[np.ndarray]
+    parts: Iterable[Part]
     bands: int = 1  # 1, or 3 for red, green and blue
+    count: int | None = None  # cells in all parts; None for all of the raster
+
+    @classmethod
+    def of(cls, values: np.ndarray) -> RasterCells:
+        """Return the cells of an array, (rows, columns) from north to south."""
+        return cls(values.shape, values.dtype.name, [Part(0, 0, values)])
+
+    @property
+    def are_sparse(self) -> bool:
+        """Whether most of a large raster has no data, so that it costs what has data."""
+        size = math.prod(self.shape)
+        return self.count is not None and 2 * self.count < size and size > _MOST_IN_MEMORY
 
 
 class Band(NamedTuple):
@@ -93,7 +109,7 @@ def _wkt_of(wkt: str | None, is_height: bool) -> str | None:
 
 def write_geotiff(
     target: Path,
-    values: np.ndarray | Rows,  # (rows, columns) from north to south
+    values: np.ndarray | RasterCells,  # (rows, columns) from north to south
     grid: RasterGrid | Raster,
     nodata: float,  # for cells without a value
     progress: Progress,
@@ -103,7 +119,7 @@ def write_geotiff(
     and blue.
     """
     if isinstance(values, np.ndarray):
-        values = Rows(values.shape, values.dtype.name, [values])
+        values = RasterCells.of(values)
     band = Band.of(grid, nodata, shows, values.bands)
     if "{unit}" in shows and band.wkt != grid.frame.wkt:
         _tell_of_heights(progress)
@@ -120,76 +136,105 @@ def check_raster(target: Path) -> None:
     _writer()
 
 
-def _writer() -> Callable[[Path, Rows, RasterGrid | Raster, Band, Progress], None]:
+def _writer() -> Callable[[Path, RasterCells, RasterGrid | Raster, Band, Progress], None]:
     """Return the function that writes with the installed library."""
     return library(_write_with_gdal, _write_with_rasterio, "Writing")
 
 
-def _waiting_file(path: Path, rows: Rows) -> Path | None:
+def _waiting_file(path: Path, cells: RasterCells) -> Path | None:
     """Return the file in which the cells are collected, or None for memory; OSError if the disk has
     too little space for it.
     """
     # If the disk becomes full later, rasterio raises no error, or an unexpected one.
-    if rows.shape[0] * rows.shape[1] * rows.bands <= _MOST_IN_MEMORY:
+    if math.prod(cells.shape) * cells.bands <= _MOST_IN_MEMORY:
         return None
-    tiles = math.prod(-(-count // _TILE) for count in rows.shape)
-    needed = tiles * rows.bands * (_TILE**2 * np.dtype(rows.kind).itemsize + _BYTES_ABOUT_A_TILE)
+    tiles = math.prod(-(-count // _TILE) for count in cells.shape)
+    needed = tiles * cells.bands * _BYTES_ABOUT_A_TILE
+    made = tiles * _TILE**2 if cells.count is None else cells.count
+    needed += made * cells.bands * np.dtype(cells.kind).itemsize
     if shutil.disk_usage(path.parent).free < needed:
         raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
     return path.with_name(f"{path.name}.cells.tif")
 
 
-def _write_with_gdal(
-    path: Path, rows: Rows, grid: RasterGrid | Raster, about: Band, progress: Progress
-) -> None:
-    from osgeo import gdal, osr
+def _waiting_options(cells: RasterCells) -> dict[str, str]:
+    """Return the options of the file in which the cells are collected; that of a sparse raster has
+    all but the cells.
+    """
+    if not cells.are_sparse:
+        return _WAITING
+    predictor = "3" if cells.kind == "float32" else "2"
+    return {**_SPARSE, "PREDICTOR": predictor}
 
-    kind = gdal.GDT_Float32 if rows.kind == "float32" else gdal.GDT_Byte
-    waiting = _waiting_file(path, rows)
-    driver, options = ("GTiff", _words(_WAITING)) if waiting else ("MEM", [])
+
+def _write_with_gdal(
+    path: Path, cells: RasterCells, grid: RasterGrid | Raster, about: Band, progress: Progress
+) -> None:
+    from osgeo import gdal
+
+    waiting = _waiting_file(path, cells)
+    driver, options = ("GTiff", _words(_waiting_options(cells))) if waiting else ("MEM", [])
+    kind = gdal.GDT_Float32 if cells.kind == "float32" else gdal.GDT_Byte
+    copy = dataset = None
     try:
         with GdalErrors(gdal, "write") as errors:
             dataset = gdal.GetDriverByName(driver).Create(
-                str(waiting or ""), rows.shape[1], rows.shape[0], rows.bands, kind, options
+                str(waiting or ""), *cells.shape[::-1], cells.bands, kind, options
             )
             errors.check(path)
-            dataset.SetGeoTransform(grid.geotransform)
-            if about.wkt:
-                reference = osr.SpatialReference()
-                if reference.ImportFromWkt(about.wkt) == 0:
-                    dataset.SetProjection(with_unit_of_heights(reference.ExportToWkt()))
-                elif reference.ImportFromWkt(of_map(about.wkt)) == 0:
-                    dataset.SetProjection(reference.ExportToWkt())
-                    _tell_of_heights(progress)
-                else:
-                    _warn_without_crs(progress)
-                errors.clear()
-            dataset.SetMetadata(_tags(about))
-            start = 0
-            for number, colour in enumerate(about.colours, 1):
-                band = dataset.GetRasterBand(number)
-                band.SetNoDataValue(about.nodata)
-                band.SetDescription(about.description)
-                if len(about.colours) > 1:
-                    band.SetColorInterpretation(getattr(gdal, f"GCI_{colour}Band"))
-                if about.unit:
-                    band.SetUnitType(about.unit)
-            for strip in rows.strips:
-                for number, part in enumerate(strip.reshape(rows.bands, *strip.shape[-2:]), 1):
-                    dataset.GetRasterBand(number).WriteArray(part, 0, start)
+            _describe(dataset, grid, about, progress, errors)
+            if waiting and cells.are_sparse:
+                dataset.FlushCache()
+                dataset = None
+                errors.check(path)
+                write_sparse(path, waiting, cells.parts, about.nodata)
+                return
+            if not waiting:
+                for number in range(1, cells.bands + 1):
+                    dataset.GetRasterBand(number).Fill(about.nodata)
+            for row, column, values in cells.parts:
+                for number, part in enumerate(values.reshape(-1, *values.shape[-2:]), 1):
+                    dataset.GetRasterBand(number).WriteArray(part, column, row)
                     errors.check(path)
-                start += strip.shape[-2]
             dataset.FlushCache()
             copy = gdal.GetDriverByName("COG").CreateCopy(str(path), dataset, 0, _words(_OPTIONS))
             errors.check(path)
             copy.FlushCache()
-            copy = band = dataset = None
+            copy = dataset = None
             errors.check(path)
     finally:
         # Windows does not remove open files.
-        copy = band = dataset = None
+        copy = dataset = None
         if waiting:
             remove(waiting)
+
+
+def _describe(
+    dataset: Any, grid: RasterGrid | Raster, about: Band, progress: Progress, errors: GdalErrors
+) -> None:
+    """Set what a data set of GDAL states about its cells."""
+    from osgeo import gdal, osr
+
+    dataset.SetGeoTransform(grid.geotransform)
+    if about.wkt:
+        reference = osr.SpatialReference()
+        if reference.ImportFromWkt(about.wkt) == 0:
+            dataset.SetProjection(with_unit_of_heights(reference.ExportToWkt()))
+        elif reference.ImportFromWkt(of_map(about.wkt)) == 0:
+            dataset.SetProjection(reference.ExportToWkt())
+            _tell_of_heights(progress)
+        else:
+            _warn_without_crs(progress)
+        errors.clear()
+    dataset.SetMetadata(_tags(about))
+    for number, colour in enumerate(about.colours, 1):
+        band = dataset.GetRasterBand(number)
+        band.SetNoDataValue(about.nodata)
+        band.SetDescription(about.description)
+        if len(about.colours) > 1:
+            band.SetColorInterpretation(getattr(gdal, f"GCI_{colour}Band"))
+        if about.unit:
+            band.SetUnitType(about.unit)
 
 
 def _tags(about: Band) -> dict[str, str]:
@@ -205,7 +250,7 @@ def _words(options: dict[str, str]) -> list[str]:
 
 
 def _write_with_rasterio(
-    path: Path, rows: Rows, grid: RasterGrid | Raster, about: Band, progress: Progress
+    path: Path, cells: RasterCells, grid: RasterGrid | Raster, about: Band, progress: Progress
 ) -> None:
     import rasterio
     import rasterio.shutil
@@ -215,34 +260,36 @@ def _write_with_rasterio(
     from rasterio.windows import Window
 
     crs = _crs_of(about.wkt, progress)
-    waiting = _waiting_file(path, rows)
+    waiting = _waiting_file(path, cells)
     profile: dict[str, object] = dict(
-        driver="GTiff", width=rows.shape[1], height=rows.shape[0], count=rows.bands,
-        dtype=rows.kind, nodata=about.nodata, crs=crs,
-        transform=Affine.from_gdal(*grid.geotransform), **_WAITING,
+        driver="GTiff", width=cells.shape[1], height=cells.shape[0], count=cells.bands,
+        dtype=cells.kind, nodata=about.nodata, crs=crs,
+        transform=Affine.from_gdal(*grid.geotransform), **_waiting_options(cells),
     )  # fmt: skip
-    if rows.bands > 1:
+    if cells.bands > 1:
         profile["photometric"] = "RGB"
+    parts = () if cells.are_sparse else cells.parts
     try:
         # No .aux.xml file is written, because it would keep the temporary name.
-        with rasterio.Env(GDAL_PAM_ENABLED="NO"), MemoryFile() as cells, MemoryFile() as copy:
-            name = str(waiting or cells.name)
+        with rasterio.Env(GDAL_PAM_ENABLED="NO"), MemoryFile() as memory, MemoryFile() as copy:
+            name = str(waiting or memory.name)
             with rasterio.open(name, "w", **profile) as dataset:
-                start = 0
-                for strip in rows.strips:
-                    window = Window(0, start, rows.shape[1], strip.shape[-2])
-                    dataset.write(strip.reshape(rows.bands, *strip.shape[-2:]), window=window)
-                    start += strip.shape[-2]
-                dataset.descriptions = (about.description,) * rows.bands
+                for row, column, values in parts:
+                    window = Window(column, row, values.shape[-1], values.shape[-2])
+                    dataset.write(values.reshape(-1, *values.shape[-2:]), window=window)
+                dataset.descriptions = (about.description,) * cells.bands
                 dataset.update_tags(**_tags(about))
                 if about.unit:
-                    dataset.units = (about.unit,) * rows.bands
-            # In memory first, since rasterio raises no error if the disk is full at the close.
-            rasterio.shutil.copy(name, copy.name, driver="COG", **_OPTIONS)
-            with copy.open() as dataset:
+                    dataset.units = (about.unit,) * cells.bands
+            if waiting and cells.are_sparse:
+                write_sparse(path, waiting, cells.parts, about.nodata)
+            else:
+                # In memory first, since rasterio raises no error if the disk is full at the close.
+                rasterio.shutil.copy(name, copy.name, driver="COG", **_OPTIONS)
+                path.write_bytes(copy.getbuffer())
+            with rasterio.open(path) as dataset:
                 if crs is not None and dataset.crs is None:
                     _warn_without_crs(progress)
-            path.write_bytes(copy.getbuffer())
     except RasterioError as error:
         raise BareEarthError(f"Cannot write {shown(path)}: {shown(error)}.") from error
     finally:

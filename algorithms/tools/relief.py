@@ -13,7 +13,8 @@ from ..core.progress import SILENT, Progress
 from ..core.threads import available_cpus, may_use
 from ..rasters.content import NO_CELLS, Source
 from ..rasters.geotiff import NODATA, Raster, read_raster
-from ..rasters.writing import Rows, write_geotiff
+from ..rasters.sparse import Part
+from ..rasters.writing import RasterCells, write_geotiff
 from .declaration import RASTER, TERRAIN, FileTool, Input, Output
 from .rasters.parameters import MapTerrain, TerrainModel
 from .rasters.rows import RASTERS, How
@@ -81,10 +82,10 @@ def draw_reliefs(
     for (name, path), part in zip(output.items(), progress.shares(*[1.0] * len(output))):
         row = RASTERS[name]
         nodata = row.nodata(no_data)
-        strips = _strips(raster, row, parameters.terrain, nodata, part)
-        rows = Rows(raster.whole, row.kind, strips, row.bands)
+        parts = _parts(raster, row, parameters.terrain, nodata, part)
+        cells = RasterCells(raster.whole, row.kind, parts, row.bands)
         with may_use(available_cpus()):
-            write(path, rows, raster, nodata, part, row.shows)
+            write(path, cells, raster, nodata, part, row.shows)
     raster.tell(progress)
 
 
@@ -97,9 +98,9 @@ def files_of(output: Path, sets: Sequence[ParameterSet]) -> dict[str, Path]:
     return {KINDS[kind]: output / f"{kind}.tif" for kind in kinds.kinds}
 
 
-def _strips(
+def _parts(
     raster: Raster, row: Row, model: TerrainModel, nodata: float, progress: Progress
-) -> Iterator[np.ndarray]:
+) -> Iterator[Part]:
     """Yield the relief of a raster, some rows at a time."""
     (count, columns), how = raster.whole, How(raster.cell_metres, model)
     unit, reach = raster.frame.vertical_unit, row.margin(how)
@@ -108,7 +109,7 @@ def _strips(
         first = max(start - reach, 0)
         metres = raster.rows(first, start + rows + reach).astype(np.float64) * unit
         relief = row.rows(metres, how=how, unit=unit, nodata=nodata)
-        yield relief[..., start - first : start - first + rows, :]
+        yield Part(start, 0, relief[..., start - first : start - first + rows, :])
         progress(0.05 + 0.85 * min(start + rows, count) / count)
 
 

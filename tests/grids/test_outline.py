@@ -1,5 +1,6 @@
 """Rasters end where the survey ends, and their outermost cells are as good as the inner ones."""
 
+import itertools
 import json
 import os
 import pickle
@@ -17,7 +18,7 @@ from bare_earth.algorithms.engine import blocks as blocks_module
 from bare_earth.algorithms.grids import outline as outline_module
 from bare_earth.algorithms.grids.canopy import without_pits
 from bare_earth.algorithms.grids.morphology import closing
-from bare_earth.algorithms.grids.outline import Discs, Outline, strips, with_gaps_inside
+from bare_earth.algorithms.grids.outline import Discs, Outline, Span, spans, with_gaps_inside
 from bare_earth.algorithms.tools.rasters.rows import RASTERS
 
 rasterio = pytest.importorskip("rasterio")
@@ -32,36 +33,55 @@ def _blobs(shape, share, seed=0):
 
 
 def _reader(cells):
-    """Return a function that reads rows of cells; those beyond are False."""
+    """Return a function that reads spans of cells; those beyond are False."""
 
-    def read(start, end):
-        rows = np.zeros((end - start, cells.shape[1]), dtype=bool)
-        first, last = max(start, 0), min(end, len(cells))
-        if first < last:
-            rows[first - start : last - start] = cells[first:last]
-        return rows
+    def read(span):
+        found = np.zeros(span.shape, dtype=bool)
+        start, end, first, last = span.within(cells.shape)
+        if start < end and first < last:
+            inside = slice(start - span.start, end - span.start), slice(first - span.first, last - span.first)
+            found[inside] = cells[start:end, first:last]
+        return found
 
     return read
 
 
 @pytest.fixture
 def small_strips(monkeypatch):
-    monkeypatch.setattr(outline_module, "_CELLS_A_STRIP", 1)
+    monkeypatch.setattr(outline_module, "_CELLS_A_SPAN", 1)
     monkeypatch.setattr(outline_module, "_ROWS", 4)
     monkeypatch.setattr(outline_module, "_COLUMNS", 16)
 
 
-@pytest.mark.parametrize("share", [0.3, 0.5, 0.6, 0.8])
+@pytest.fixture
+def small_squares(small_strips, monkeypatch):
+    monkeypatch.setattr(outline_module, "_WIDE", 1)
+    monkeypatch.setattr(outline_module, "_SIDE", 16)
+
+
+@pytest.mark.parametrize("size", ["small_strips", "small_squares"])
+@pytest.mark.parametrize("share", [0.1, 0.3, 0.5, 0.6, 0.8])
 @pytest.mark.parametrize("seed", range(3))
-def test_gaps_inside_are_those_that_no_way_leads_out_of(small_strips, share, seed):
+def test_gaps_inside_are_those_that_no_way_leads_out_of(request, size, share, seed):
+    request.getfixturevalue(size)
     cells = _blobs((90, 70), share, seed)
-    found = with_gaps_inside(_reader(cells), cells.shape)
+    read = []
+
+    def reader(span):
+        read.append(span)
+        return _reader(cells)(span)
+
+    def holds(span):
+        return cells[span.start : span.end, span.first : span.last].any()
+
+    found = with_gaps_inside(reader, cells.shape, holds=holds)
+    assert len(read) == sum(map(holds, spans(cells.shape)))
     expected = ndimage.binary_fill_holes(cells)
-    assert np.array_equal(found.rows(0, 90), expected)
+    assert np.array_equal(found.cells(Span(0, 90, 0, 70)), expected)
     assert expected.sum() > cells.sum() or share < 0.5
     # Any part of it, also beyond the raster.
     part = np.pad(expected, 10)[10 - 3 : 10 + 33, 10 + 5 : 10 + 41]
-    assert np.array_equal(found.rows(-3, 33, 5, 41), part)
+    assert np.array_equal(found.cells(Span(-3, 33, 5, 41)), part)
 
 
 def test_the_closing_is_that_of_scipy():
@@ -73,27 +93,28 @@ def test_the_closing_is_that_of_scipy():
 
 
 @pytest.mark.parametrize("radius", [9.0, 90.0])
-def test_strips_give_the_closing_of_all_rows_wherever_the_raster_begins(radius):
+def test_spans_give_the_closing_of_the_whole_wherever_the_raster_begins(radius):
     cells = np.zeros((300, 280), dtype=bool)
     cells[tuple(np.random.default_rng(1).integers(60, 200, (2, 400)))] = True
     whole = Discs(_reader(cells), (1000, 700), radius, radius)
-    expected = whole.rows(0, 300)
+    expected = whole.cells(Span(0, 300, 0, 280))
     assert expected[60:200, 60:200].mean() > 0.2 and not expected[:30].any()
-    strips = [whole.rows(start, min(start + 37, 300)) for start in range(0, 300, 37)]
-    assert np.array_equal(np.concatenate(strips), expected)
+    for start, first in itertools.product(range(0, 300, 37), range(0, 280, 41)):
+        span = Span(start, min(start + 37, 300), first, min(first + 41, 280))
+        found = expected[span.start : span.end, span.first : span.last]
+        assert np.array_equal(whole.cells(span), found)
     # 13 rows and 21 columns less.
     less = Discs(_reader(cells[13:, 21:]), (1000 - 13, 700 + 21), radius, radius)
-    assert np.array_equal(less.rows(0, 287), expected[13:, 21:])
+    assert np.array_equal(less.cells(Span(0, 287, 0, 259)), expected[13:, 21:])
 
 
 def test_an_outline_of_a_large_raster_takes_little_memory():
     outline = Outline((1024, 20_000))
-    x = np.arange(20_000)
-    for start, end in strips(outline.shape):
-        row = np.arange(start, end)[:, None]
-        outline.set(start, np.hypot(row - 500.0, (x - 10_000.0) / 20.0) < 500.0)
+    for span in spans(outline.shape):
+        row, x = np.ogrid[span.start : span.end, span.first : span.last]
+        outline.set(span, np.hypot(row - 500.0, (x - 10_000.0) / 20.0) < 500.0)
     assert len(pickle.dumps(outline)) < 50_000
-    assert outline.rows(500, 501).sum() == 19_999
+    assert outline.cells(Span(500, 501, 0, 20_000)).sum() == 19_999
 
 
 # On points
@@ -309,7 +330,7 @@ def test_blocks_files_and_strips_give_the_same_outlines(tmp_path, monkeypatch, n
         las.classification[:] = [known[tuple(row)] for row in rows.tolist()]
         las.write(str(file))
     monkeypatch.setattr(blocks_module, "_SIDE", 100.0)
-    monkeypatch.setattr(outline_module, "_CELLS_A_STRIP", 1)
+    monkeypatch.setattr(outline_module, "_CELLS_A_SPAN", 1)
     many = _terrain(tmp_path / "rasters", [tmp_path / "many"], names=names)
     for (a, _, _), (b, _, _) in zip(one, many):
         assert np.array_equal(np.isnan(a), np.isnan(b))
@@ -423,7 +444,7 @@ def test_pits_of_the_canopy_are_filled_without_seams(tmp_path, monkeypatch):
     before, after = plain[1][0], filled[1][0]
     assert np.array_equal(np.isnan(before), np.isnan(after))
     assert np.nanmin(after - before) == 0.0 and np.mean(after - before > 2.0) > 0.02
-    monkeypatch.setattr(outline_module, "_CELLS_A_STRIP", 1)
+    monkeypatch.setattr(outline_module, "_CELLS_A_SPAN", 1)
     monkeypatch.setattr(outline_module, "_ROWS", 7)
     monkeypatch.setattr(blocks_module, "_SIDE", 100.0)
     strips = _terrain(tmp_path / "c", path, 2.0, names, pit_free=True)

@@ -21,7 +21,8 @@ from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.core.points import Frame
 from bare_earth.algorithms.rasters import writing
 from bare_earth.algorithms.rasters.geotiff import RasterGrid
-from bare_earth.algorithms.rasters.writing import Rows
+from bare_earth.algorithms.rasters.sparse import Part
+from bare_earth.algorithms.rasters.writing import RasterCells
 
 UTM = QgsCoordinateReferenceSystem("EPSG:25832")
 FEET = "EPSG:2230"
@@ -227,13 +228,13 @@ def test_a_cancel_closes_the_cells_that_wait_on_disk_before_it_removes_them(tmp_
         removed.append(Path(path).name)
         remove(path, **named)
 
-    def strips():
-        yield np.zeros((4, 9), np.uint8)
+    def parts():
+        yield Part(0, 0, np.zeros((4, 9), np.uint8))
         raise Cancelled
 
     monkeypatch.setattr(writing, "_MOST_IN_MEMORY", 10)
     monkeypatch.setattr(os, "unlink", unlink)
-    grid, rows = RasterGrid(0.0, 9.0, 1.0, 9, 9, Frame()), Rows((9, 9), "uint8", strips())
+    grid, rows = RasterGrid(0.0, 9.0, 1.0, 9, 9, Frame()), RasterCells((9, 9), "uint8", parts())
     with pytest.raises(Cancelled):
         writing.write_geotiff(tmp_path / "a.tif", rows, grid, 255, Progress(), "classes")
     assert [file for file in removed if file.endswith(".cells.tif")] and not os.listdir(tmp_path)

@@ -12,7 +12,8 @@ from bare_earth import BareEarthError, Cancelled, Progress
 from bare_earth.algorithms.core.points import Frame, Points
 from bare_earth.algorithms.rasters import writing
 from bare_earth.algorithms.rasters.geotiff import NODATA, RasterGrid, read_raster
-from bare_earth.algorithms.rasters.writing import Rows, write_geotiff
+from bare_earth.algorithms.rasters.sparse import Part
+from bare_earth.algorithms.rasters.writing import RasterCells, write_geotiff
 
 rasterio = pytest.importorskip("rasterio")
 
@@ -149,7 +150,7 @@ def test_cells_that_find_no_room_to_wait_on_disk_are_told_before_any_is_made(tmp
     target, side = tmp_path / "out.tif", 8_100  # more than 64 million cells of one byte
     target.write_bytes(b"old")
     monkeypatch.setattr(shutil, "disk_usage", usage)
-    rows = Rows((side, side), "uint8", (pytest.fail("a row was made") for _ in range(1)))
+    rows = RasterCells((side, side), "uint8", (pytest.fail("a row was made") for _ in range(1)))
     grid = RasterGrid(0.0, float(side), 1.0, side, side, Frame())
     with pytest.raises(BareEarthError, match=r"Cannot write .*out\.tif: the disk is full\."):
         write_geotiff(target, rows, grid, 255, Progress(), "classes")
@@ -167,8 +168,8 @@ def test_a_cancel_closes_the_cells_that_wait_on_disk_before_it_removes_them(tmp_
         removed.append(Path(path).name)
         remove(path, **named)
 
-    def strips():
-        yield np.zeros((4, 9), np.uint8)
+    def parts():
+        yield Part(0, 0, np.zeros((4, 9), np.uint8))
         raise Cancelled
 
     monkeypatch.setattr(writing, "_MOST_IN_MEMORY", 10)
@@ -176,7 +177,7 @@ def test_a_cancel_closes_the_cells_that_wait_on_disk_before_it_removes_them(tmp_
     grid = RasterGrid(0.0, 9.0, 1.0, 9, 9, Frame())
     with pytest.raises(Cancelled):
         write_geotiff(
-            tmp_path / "a.tif", Rows((9, 9), "uint8", strips()), grid, 255, Progress(), "classes"
+            tmp_path / "a.tif", RasterCells((9, 9), "uint8", parts()), grid, 255, Progress(), "classes"
         )
     assert [file for file in removed if file.endswith(".cells.tif")] and not os.listdir(tmp_path)
 

@@ -16,7 +16,8 @@ from ...grids.parts import parts_with
 from ...rasters import looks
 from ...rasters.geotiff import NODATA, RasterGrid
 from ...rasters.looks import Categories, Look, Ramp, Steps
-from ...rasters.writing import Rows, write_geotiff
+from ...rasters.sparse import Part
+from ...rasters.writing import RasterCells, write_geotiff
 from ...report.pictures import HEIGHTS
 from .cells import STRIPS, Grid, Make, QualityCells, Rectangle
 from .planes import moments, plane_of
@@ -214,14 +215,14 @@ def write_rasters(
         north = (window.row + window.rows) * size
         grid = RasterGrid(window.column * size, north, size, window.columns, window.rows, frame)
         nodata = _NO_BYTE if raster.kind == "uint8" else NODATA
-        rows = Rows(window.shape, raster.kind, _rows_of(raster, cells, frame, nodata))
-        write_geotiff(path, rows, grid, nodata, progress, raster.shows)
+        made = RasterCells(window.shape, raster.kind, _parts_of(raster, cells, frame, nodata))
+        write_geotiff(path, made, grid, nodata, progress, raster.shows)
         progress(number / len(paths))
 
 
-def _rows_of(
+def _parts_of(
     raster: QualityRaster, cells: QualityCells, frame: Frame, nodata: float
-) -> Iterator[np.ndarray]:
+) -> Iterator[Part]:
     """Yield rows of a raster from north to south."""
     unit = frame.vertical_unit if raster.is_height else 1.0
 
@@ -230,4 +231,5 @@ def _rows_of(
 
     for rows in reversed(raster.grid(cells).parts()):
         values = cells.rows_of(make, rows, raster.is_coarse)
-        yield np.where(np.isnan(values), nodata, values).astype(raster.kind)[::-1]
+        made = np.where(np.isnan(values), nodata, values).astype(raster.kind)[::-1]
+        yield Part(raster.grid(cells).window.rows - rows.stop, 0, made)

@@ -11,7 +11,7 @@ import numpy as np
 from ...core.points import Box
 from ...grids.cell_window import CellWindow
 from ...grids.lines import NearestHeights, near_rings
-from ...grids.outline import Outline, strips
+from ...grids.outline import Outline, Span, spans
 from ...survey.area import Area
 from ...tin.triangulation import Tin
 
@@ -93,32 +93,36 @@ class WaterCells:
             if not (part := CellWindow.around(water.bounds, cell).within(window)).is_empty
         ]
 
-    def inside(self, strip: CellWindow) -> np.ndarray:
-        """Return which cells of a strip lie in water, rows from the south; bool."""
-        found = np.zeros(strip.shape, dtype=bool)
-        for where, cells, *_ in self._among(strip):
+    def meets(self, window: CellWindow) -> bool:
+        """Return whether water can lie in a window."""
+        return not all(part.within(window).is_empty for _, part, _ in self._parts)
+
+    def inside(self, window: CellWindow) -> np.ndarray:
+        """Return which cells of a window lie in water, rows from the south; bool."""
+        found = np.zeros(window.shape, dtype=bool)
+        for where, cells, *_ in self._among(window):
             found[where] |= cells
         return found
 
-    def burn(self, heights: np.ndarray, strip: CellWindow, kept: np.ndarray | None = None) -> None:
+    def burn(self, heights: np.ndarray, window: CellWindow, kept: np.ndarray | None = None) -> None:
         """Set the heights in metres of cells in water to its level, in place, but for those `kept`;
-        rows of the strip go from the south.
+        rows of the window go from the south.
         """
-        for where, cells, water, part in self._among(strip):
+        for where, cells, water, part in self._among(window):
             rows, columns = np.nonzero(cells if kept is None else cells & ~kept[where])
             x, y = (part.column + columns + 0.5) * self._cell, (part.row + rows + 0.5) * self._cell
             heights[where][rows, columns] = water.level_at(x, y)
 
     def _among(
-        self, strip: CellWindow
+        self, window: CellWindow
     ) -> Iterator[tuple[tuple[slice, slice], np.ndarray, LevelWater, CellWindow]]:
-        """Yield, for each water, its part of a strip, which cells of it lie in it, and these."""
-        for water, window, cells in self._parts:
-            part = window.within(strip)
+        """Yield, for each water, its part of a window, which cells of it lie in it, and these."""
+        for water, whole, cells in self._parts:
+            part = whole.within(window)
             if not part.is_empty:
-                rows, columns = window.slices(part)
-                inside = cells.rows(rows.start, rows.stop, columns.start, columns.stop)
-                yield strip.slices(part), inside, water, part
+                rows, columns = whole.slices(part)
+                inside = cells.cells(Span(rows.start, rows.stop, columns.start, columns.stop))
+                yield window.slices(part), inside, water, part
 
 
 NO_WATER_CELLS = WaterCells((), CellWindow(0, 0, 0, 0), 1.0)
@@ -128,8 +132,8 @@ def _cells_in(water: LevelWater, window: CellWindow, cell: float) -> Outline:
     """Return which cells of a window have their centre in water."""
     cells = Outline(window.shape)
     x, y = window.centres(cell)
-    for start, end in strips(window.shape):
-        east, north = np.meshgrid(x, y[start:end])
+    for span in spans(window.shape):
+        east, north = np.meshgrid(x[span.first : span.last], y[span.start : span.end])
         inside = water.contains(east.ravel(), north.ravel())
-        cells.set(start, inside.reshape(east.shape))
+        cells.set(span, inside.reshape(east.shape))
     return cells

@@ -1,8 +1,9 @@
-"""Joins the layers of blocks, some rows at a time."""
+"""Joins the layers of blocks, span by span, without land that has none."""
 
 from __future__ import annotations
 
 import copy
+import math
 from typing import Callable, Iterator, Sequence
 
 import numpy as np
@@ -11,7 +12,8 @@ from ...core.points import Points
 from ...core.progress import SILENT, Progress
 from ...grids.cell_window import CellWindow
 from ...grids.morphology import within_square
-from ...grids.outline import Outline, strips
+from ...grids.outline import Outline, Span, spans
+from ...rasters.sparse import Part
 from ...survey.area import Area
 from ...tin.surface import CellLattice, Surface
 from .block import CONTENTS, TOP, BlockRasters
@@ -19,14 +21,14 @@ from .level_water import NO_WATER_CELLS, WaterCells
 
 
 def joined(
-    blocks: Sequence[BlockRasters], layer: str, strip: CellWindow, empty: np.generic
+    blocks: Sequence[BlockRasters], layer: str, window: CellWindow, empty: np.generic
 ) -> np.ndarray:
-    """Return the cells of a layer in a strip, rows from the south; `empty` where there is none."""
-    cells = np.full(strip.shape, empty)
+    """Return the cells of a layer in a window, rows from the south; `empty` where there is none."""
+    cells = np.full(window.shape, empty)
     for block in blocks:
-        shared = strip.within(block.window)
+        shared = window.within(block.window)
         if not shared.is_empty:
-            cells[strip.slices(shared)] = block.layers[layer][block.window.slices(shared)]
+            cells[window.slices(shared)] = block.layers[layer][block.window.slices(shared)]
     return cells
 
 
@@ -46,7 +48,7 @@ class Mosaic:
         water: WaterCells = NO_WATER_CELLS,
     ) -> None:
         self._blocks, self._layer, self.window, self._cell = blocks, layer, window, cell
-        self._whole, self._outlines, self._water = window, [outline] if outline else [], water
+        self._outlines, self._water = [outline] if outline else [], water
         self._area: Area | None = None
         self._gaps: Surface | None = None
 
@@ -56,94 +58,96 @@ class Mosaic:
         part._outlines, part._area = self._outlines + ([outline] if outline else []), area
         return part
 
-    def columns(self, start: int, end: int) -> Mosaic:
-        """Return some columns of the layer, from `start` on; those beyond it are NaN."""
-        part, whole = copy.copy(self), self.window
-        part.window = whole._replace(column=whole.column + start, columns=end - start)
-        part._blocks = [
-            block for block in self._blocks if not part.window.within(block.window).is_empty
-        ]
-        return part
+    def meets(self, span: Span) -> bool:
+        """Return whether the layer can have values in a span, whatever is near in all directions."""
+        return all(outline.meets(span) for outline in self._outlines)
 
-    def rows(self, start: int, end: int) -> np.ndarray:
-        """Return rows from north to south, shape (end - start, columns); beyond it NaN."""
-        strip = self.window.strip(start, end)
-        heights = joined(self._blocks, self._layer, strip, np.float32(np.nan))
+    def cells(self, span: Span) -> np.ndarray:
+        """Return the cells of a span, rows from north to south; NaN for no value."""
+        window = self.window.part(*span)
+        heights = joined(self._blocks, self._layer, window, np.float32(np.nan))
         if self._layer == "terrain":
-            self._water.burn(heights, strip)
+            self._water.burn(heights, window)
         elif self._layer in ("surface", "canopy"):
-            has_top = joined(self._blocks, CONTENTS, strip, np.uint8(0)) >= TOP
-            self._water.burn(heights, strip, has_top)
+            has_top = joined(self._blocks, CONTENTS, window, np.uint8(0)) >= TOP
+            self._water.burn(heights, window, has_top)
         elif self._layer in ("expected_error", "error_cause"):
             # It tells what the ground points are worth, and the terrain of these cells has none.
-            heights[self._water.inside(strip)] = np.nan
+            heights[self._water.inside(window)] = np.nan
         if self._outlines:
-            outside = ~self._inside(start, end)[::-1]
+            outside = ~self._inside(span)[::-1]
             if self._gaps is not None:
-                self._fill(heights, strip, self._gaps, outside)
+                self._fill(heights, window, self._gaps, outside)
             heights[outside] = np.nan
         if self._area is not None:
-            x, y = np.meshgrid(*strip.centres(self._cell))
+            x, y = np.meshgrid(*window.centres(self._cell))
             heights[~self._area.contains(x.ravel(), y.ravel()).reshape(x.shape)] = np.nan
         return heights[::-1]
 
-    def _inside(self, start: int, end: int) -> np.ndarray:
-        """Return which cells of some rows lie in all outlines."""
-        first = self.window.column - self._whole.column
-        columns = first, first + self.window.columns
-        rows = [outline.rows(start, end, *columns) for outline in self._outlines]
-        return np.logical_and.reduce(rows)
+    def _inside(self, span: Span) -> np.ndarray:
+        """Return which cells of a span lie in all outlines."""
+        return np.logical_and.reduce([outline.cells(span) for outline in self._outlines])
 
     def fill_gaps(self, points: np.ndarray, progress: Progress = SILENT) -> None:
         """Fill cells without a height inside the outline, from a TIN over the gaps, of the cells
         along them and of more vertices, shape (n, 3).
         """
         vertices = [points]
-        for start, end in strips(self.window.shape):
-            first, last = max(start - 1, 0), min(end + 1, self.window.rows)
-            heights, inside = self.rows(first, last), self._inside(first, last)
-            vertices.append(self._along_gaps(heights, np.isnan(heights) & inside, first))
-            progress(end / self.window.rows)
+        for span in spans(self.window.shape):
+            wide = span.wider(1).within(self.window.shape)
+            if self.meets(wide):
+                heights = self.cells(wide)
+                missing = np.isnan(heights) & self._inside(wide)
+                vertices.append(self._along_gaps(heights, missing, wide))
+            progress(span.end / self.window.rows)
         self._gaps = Surface(Points(*np.concatenate(vertices).T))
 
-    def _along_gaps(self, heights: np.ndarray, missing: np.ndarray, first: int) -> np.ndarray:
+    def _along_gaps(self, heights: np.ndarray, missing: np.ndarray, span: Span) -> np.ndarray:
         """Return centres and heights of the cells with a height next to missing ones, (n, 3)."""
         near = within_square(np.maximum, missing, 1)
         row, column = np.nonzero(near & ~np.isnan(heights))
-        x = (self.window.column + column + 0.5) * self._cell
-        y = (self.window.row + self.window.rows - first - row - 0.5) * self._cell
+        x = (self.window.column + span.first + column + 0.5) * self._cell
+        y = (self.window.row + self.window.rows - span.start - row - 0.5) * self._cell
         return np.column_stack((x, y, heights[row, column].astype(np.float64)))
 
     def _fill(
-        self, heights: np.ndarray, strip: CellWindow, gaps: Surface, outside: np.ndarray
+        self, heights: np.ndarray, window: CellWindow, gaps: Surface, outside: np.ndarray
     ) -> None:
         row, column = np.nonzero(np.isnan(heights) & ~outside)
         if len(row):
-            x = (strip.column + column + 0.5) * self._cell
-            y = (strip.row + row + 0.5) * self._cell
+            x = (window.column + column + 0.5) * self._cell
+            y = (window.row + row + 0.5) * self._cell
             lattice = CellLattice((0.0, 0.0), self._cell)
             heights[row, column] = gaps.heights(x, y, cells=lattice)
 
 
-def gathered_strips(
+def made_parts(
     mosaics: Sequence[Mosaic],
     window: CellWindow,
     make: Callable[..., np.ndarray],
     margin: int,
     progress: Progress,
-) -> Iterator[np.ndarray]:
-    """Yield a raster, strip by strip from north to south, that `make` makes of as many rows of each
-    mosaic, all with the same cells; the first axis may be bands.
+) -> tuple[Iterator[Part], int]:
+    """Return the parts of a raster, from north to south, that `make` makes of the same span of each
+    mosaic, all with the same cells, and how many cells these are; the first axis may be bands.
     """
-    # `margin` is the number of rows and columns beyond a strip that affect it. Cells of the window
-    # beyond the mosaics have no value.
+    # `margin` is the number of cells beyond a span that affect it. Cells of the window beyond the
+    # mosaics have no value, and spans without any are no parts.
     whole = mosaics[0].window
     north = whole.row + whole.rows - window.row - window.rows
-    left = window.column - whole.column
-    parts = [mosaic.columns(left - margin, left + window.columns + margin) for mosaic in mosaics]
-    inside = slice(margin, margin + window.columns)
-    for start, end in strips(window.shape):
-        first, last = north + start - margin, north + end + margin
-        rows = make(*(part.rows(first, last) for part in parts))
-        yield rows[..., margin : margin + end - start, inside]
-        progress(end / window.rows)
+    west = window.column - whole.column
+    wanted = []
+    for span in spans(window.shape):
+        start, end, first, last = span
+        wide = Span(start + north, end + north, first + west, last + west).wider(margin)
+        if any(mosaic.meets(wide) for mosaic in mosaics):
+            wanted.append((span, wide))
+
+    def parts() -> Iterator[Part]:
+        for number, (span, wide) in enumerate(wanted, start=1):
+            rows, columns = (slice(margin, margin + side) for side in span.shape)
+            made = make(*(mosaic.cells(wide) for mosaic in mosaics))
+            yield Part(span.start, span.first, made[..., rows, columns])
+            progress(number / len(wanted))
+
+    return parts(), sum(math.prod(span.shape) for span, _ in wanted)

@@ -9,15 +9,15 @@ smaller than the disc, and no slivers along the hull take part.
 from __future__ import annotations
 
 import math
-from typing import Sequence
+from typing import Callable, NamedTuple, Sequence
 
 import numpy as np
 
 from ...core.progress import SILENT, Progress
 from ...grids.cell_window import CellWindow
-from ...grids.cells import are_inside, usual_count
+from ...grids.cells import are_inside
 from ...grids.morphology import closing, within_square
-from ...grids.outline import MOST_CELLS, Discs, Outline, strips, with_gaps_inside
+from ...grids.outline import MOST_CELLS, Discs, Outline, Span, spans, with_gaps_inside
 from .block import ANY, CONTENTS, QUARTERS, BlockRasters, RasterStep
 from .level_water import NO_WATER_CELLS, WaterCells
 from .mosaic import Mosaic, joined
@@ -29,8 +29,6 @@ _SPACINGS = 4.0
 _LEAST_OF_GROUND = 10.0
 # Cells: side of the squares in which cells with points are counted.
 _SQUARE = 16
-# Most squares of a raster; those of a larger one are wider.
-_MOST_SQUARES = 4_000_000
 # Fewest cells with points of a usual square for a sound distance; else squares are joined.
 _FEWEST = 16
 # Columns that are refined at a time.
@@ -46,75 +44,122 @@ class CellContents:
         self, blocks: Sequence[BlockRasters], window: CellWindow, water: WaterCells = NO_WATER_CELLS
     ) -> None:
         self._blocks, self.window, self.water = blocks, window, water
+        self._windows = np.array([block.window for block in blocks], dtype=np.int64).reshape(-1, 4)
 
-    def points(self, start: int, end: int) -> np.ndarray:
-        """Return which cells contain any point or water, as `ReadRows`."""
-        return self.of_water(start, end) | (self._rows(start, end) >= ANY)
+    def meets(self, span: Span) -> bool:
+        """Return whether a block or water can have cells in a span."""
+        window = self.window.part(*span)
+        row, column, rows, columns = self._windows.T
+        apart = (row >= window.row + window.rows) | (row + rows <= window.row)
+        apart |= (column >= window.column + window.columns) | (column + columns <= window.column)
+        return self.water.meets(window) or not apart.all()
 
-    def ground(self, start: int, end: int) -> np.ndarray:
-        """Return which cells contain ground points or water, as `ReadRows`."""
-        return self.of_water(start, end) | (self._rows(start, end) % ANY > 0)
+    def points(self, span: Span) -> np.ndarray:
+        """Return which cells contain any point or water, as `Read`."""
+        return self.of_water(span) | (self._of(span) >= ANY)
 
-    def of_water(self, start: int, end: int) -> np.ndarray:
-        """Return which cells lie in water with a level, as `ReadRows`."""
-        return self.water.inside(self.window.strip(start, end))[::-1]
+    def ground(self, span: Span) -> np.ndarray:
+        """Return which cells contain ground points or water, as `Read`."""
+        return self.of_water(span) | (self._of(span) % ANY > 0)
 
-    def _rows(self, start: int, end: int) -> np.ndarray:
-        return joined(self._blocks, CONTENTS, self.window.strip(start, end), np.uint8(0))[::-1]
+    def of_water(self, span: Span) -> np.ndarray:
+        """Return which cells lie in water with a level, as `Read`."""
+        return self.water.inside(self.window.part(*span))[::-1]
 
-    def quarters(self, start: int, end: int, columns: slice) -> np.ndarray:
-        """Return which quarters of cells contain ground points; bool, twice as many each way."""
-        strip = self.window.strip(start, end)._replace(
-            column=self.window.column + columns.start, columns=columns.stop - columns.start
-        )
-        contents = joined(self._blocks, CONTENTS, strip, np.uint8(0))[::-1]
+    def _of(self, span: Span) -> np.ndarray:
+        contents = joined(self._blocks, CONTENTS, self.window.part(*span), np.uint8(0))[::-1]
         # Beyond the columns of the survey nothing counts.
-        contents[:, : max(-columns.start, 0)] = 0
-        contents[:, self.window.columns - columns.start :] = 0
+        contents[:, : max(-span.first, 0)] = 0
+        contents[:, max(self.window.columns - span.first, 0) :] = 0
+        return contents
+
+    def quarters(self, span: Span) -> np.ndarray:
+        """Return which quarters of cells contain ground points; bool, twice as many each way."""
+        contents = self._of(span)
         quarters = np.zeros((2 * contents.shape[0], 2 * contents.shape[1]), dtype=bool)
         for number in range(QUARTERS):
             # Rows go from north to south, so the northern quarters come first.
             quarters[1 - number // 2 :: 2, number % 2 :: 2] = contents & (1 << number)
-        return quarters | self.water.inside(strip)[::-1].repeat(2, axis=0).repeat(2, axis=1)
+        return quarters | self.of_water(span).repeat(2, axis=0).repeat(2, axis=1)
 
     def spacings(self) -> tuple[float, float]:
         """Return the usual distances, in cells, between cells with points and with ground."""
-        window, side = self.window, _SQUARE
-        while (window.rows // side + 2) * (window.columns // side + 2) > _MOST_SQUARES:
-            side *= 2
-        first = window.row // side, window.column // side
-        last = (window.row + window.rows) // side, (window.column + window.columns) // side
-        counts = np.zeros((2, *(b - a + 1 for a, b in zip(first, last))), dtype=np.int64)
+        window, found = self.window, [_NO_SQUARES]
+        first = window.row // _SQUARE, window.column // _SQUARE
         for block in self._blocks:
             shared = block.window.within(window)
             if shared.is_empty:
                 continue
             contents = block.layers[CONTENTS][block.window.slices(shared)]
             (rows, at_rows), (columns, at_columns) = (
-                np.unique((start + np.arange(count)) // side, return_index=True)
+                np.unique((start + np.arange(count)) // _SQUARE, return_index=True)
                 for start, count in zip(shared[:2], shared.shape)
             )
-            squares = np.ix_(rows - first[0], columns - first[1])
-            for number, holding in zip(counts, (contents >= ANY, contents % ANY > 0)):
+            of_block = []
+            for holding in (contents >= ANY, contents % ANY > 0):
                 along = np.add.reduceat(holding, at_rows, axis=0, dtype=np.int64)
-                number[squares] += np.add.reduceat(along, at_columns, axis=1)
-        area = window.rows * window.columns
-        return _apart(counts[0], side, area), _apart(counts[1], side, area)
+                of_block.append(np.add.reduceat(along, at_columns, axis=1).ravel())
+            row, column = np.meshgrid(rows - first[0], columns - first[1], indexing="ij")
+            found.append(np.array([row.ravel(), column.ravel(), *of_block]))
+        row, column, *counts = np.concatenate(found, axis=1)
+        across = max(
+            (start + side) // _SQUARE - start // _SQUARE + 1
+            for start, side in zip(window[:2], window.shape)
+        )
+        of_all, of_ground = (
+            _apart(Squares.of(row, column, count), across, math.prod(window.shape))
+            for count in counts
+        )
+        return of_all, of_ground
 
 
-def _apart(counts: np.ndarray, side: int, area: int) -> float:
-    """Return the usual distance of cells, given their number in each square of `side` cells."""
-    # It is never more than if they were spread evenly over the `area`, in cells, of the raster: a
-    # small raster is only a part of a square.
-    if not counts.any():
+class Squares(NamedTuple):
+    """Numbers of cells in the squares that have any; int64 (n,), by row and column from 0."""
+
+    row: np.ndarray
+    column: np.ndarray
+    count: np.ndarray
+
+    @classmethod
+    def of(cls, row: np.ndarray, column: np.ndarray, count: np.ndarray) -> Squares:
+        """Return the squares, of which some are given several times."""
+        has = count > 0
+        width = int(column.max(initial=0)) + 1
+        places, back = np.unique(row[has] * width + column[has], return_inverse=True)
+        total = np.zeros(len(places), dtype=np.int64)
+        np.add.at(total, back.ravel(), count[has])
+        return cls(places // width, places % width, total)
+
+    @property
+    def usual(self) -> float:
+        """The median number of cells, of squares all of whose neighbours have any, if there are."""
+        width = int(self.column.max()) + 3
+        places = self.row * width + self.column
+        within = np.ones(len(places), dtype=bool)
+        for beside in (-width - 1, -width, -width + 1, -1, 1, width - 1, width, width + 1):
+            within &= np.isin(places + beside, places)
+        return float(np.median(self.count[within] if within.any() else self.count))
+
+    def joined(self) -> Squares:
+        """Return squares of twice the side."""
+        return Squares.of(self.row // 2, self.column // 2, self.count)
+
+
+_NO_SQUARES = np.zeros((4, 0), dtype=np.int64)
+
+
+def _apart(squares: Squares, across: int, area: int) -> float:
+    """Return the usual distance of the cells that are counted in squares of `_SQUARE` cells, in a
+    raster of `area` cells that is up to `across` squares wide and high.
+    """
+    # It is never more than if they were spread evenly over the raster: a small one is only a part
+    # of a square.
+    if not len(squares.count):
         return 1.0
-    widest = math.sqrt(area / int(counts.sum()))
-    while usual_count(counts) < _FEWEST and max(counts.shape) > 1:
-        counts = np.pad(counts, [(0, count % 2) for count in counts.shape])
-        counts = counts[::2] + counts[1::2]
-        counts = counts[:, ::2] + counts[:, 1::2]
-        side *= 2
-    return max(min(side / math.sqrt(usual_count(counts)), widest), 1.0)
+    side, widest = _SQUARE, math.sqrt(area / int(squares.count.sum()))
+    while squares.usual < _FEWEST and across > 1:
+        squares, side, across = squares.joined(), 2 * side, -(-across // 2)
+    return max(min(side / math.sqrt(squares.usual), widest), 1.0)
 
 
 def _radius(cells: float) -> float:
@@ -131,44 +176,51 @@ class Outlines:
         self._longest, self.water = step.longest_edge / cell, contents.water
         self._corner = window.row + window.rows, window.column
         of_all, of_ground = contents.spacings()
-        self._near = _radius(_SPACINGS * of_all)
+        near = _radius(_SPACINGS * of_all)
+        self._of_points = Discs(contents.points, self._corner, near, near)
         least = min(_LEAST_OF_GROUND / cell, MOST_CELLS - 1)
         self._near_ground = _radius(max(_SPACINGS * of_ground, least))
 
     def survey(self, progress: Progress = SILENT) -> Outline:
         """Return the outline of all points."""
-        return with_gaps_inside(self._closed, self._shape, progress)
+        return with_gaps_inside(
+            self._closed, self._shape, progress, self._near_by(self._of_points)
+        )
+
+    def _closed(self, span: Span) -> np.ndarray:
+        return self._of_points.cells(span) | self._contents.points(span)
+
+    def _near_by(self, discs: Discs) -> Callable[[Span], bool]:
+        """Return a function that tells which spans discs can reach."""
+        return lambda span: self._contents.meets(span.wider(discs.margin))
 
     def terrain(self, survey: Outline, progress: Progress = SILENT) -> Outline:
         """Return where the terrain is known; `survey` is the outline of all points."""
         ground = Discs(self._contents.ground, self._corner, self._near_ground, self._near_ground)
-        wide = with_gaps_inside(ground.rows, self._shape, progress.part(0.0, 0.8))
+        part, near = progress.part(0.0, 0.8), self._near_by(ground)
+        wide = with_gaps_inside(ground.cells, self._shape, part, near)
         inside = Outline(self._shape)
-        for start, end in strips(self._shape):
-            cells = wide.rows(start - 1, end + 1)
-            if ground.group == 1:
-                self._refine(cells, start - 1)
-            inside.set(
-                start, (cells[1:-1] & survey.rows(start, end)) | self._contents.of_water(start, end)
-            )
-            progress(0.8 + 0.2 * end / self._shape[0])
+        for span in spans(self._shape):
+            around = span.wider(1)
+            if wide.meets(around) or self._contents.water.meets(self._contents.window.part(*span)):
+                cells = wide.cells(around)
+                if ground.group == 1:
+                    self._refine(cells, around)
+                cells = cells[1:-1, 1:-1] & survey.cells(span)
+                inside.set(span, cells | self._contents.of_water(span))
+            progress(0.8 + 0.2 * span.end / self._shape[0])
         return inside
 
     def canopy(self, progress: Progress = SILENT) -> Outline:
         """Return where the surface was measured, and the terrain nearby."""
         measured = Outline(self._shape)
         ground = Discs(self._contents.ground, self._corner, self._longest, 0.0)
-        for start, end in strips(self._shape):
-            measured.set(start, self._closed(start, end) & ground.rows(start, end))
-            progress(end / self._shape[0])
+        for span in filter(self._near_by(self._of_points), spans(self._shape)):
+            measured.set(span, self._closed(span) & ground.cells(span))
+            progress(span.end / self._shape[0])
         return measured
 
-    def _closed(self, start: int, end: int) -> np.ndarray:
-        points = self._contents.points
-        closed = Discs(points, self._corner, self._near, self._near).rows(start, end)
-        return closed | points(start, end)
-
-    def _refine(self, cells: np.ndarray, start: int) -> None:
+    def _refine(self, cells: np.ndarray, span: Span) -> None:
         """Take away cells along the border whose centre lies beyond the ground points, in place."""
         # A cell along the border may hold points on one side only. Its centre is inside if all of
         # its quarters are in the closing of the quarters.
@@ -181,12 +233,12 @@ class Outlines:
             rows = np.flatnonzero(border[:, first:last].any(axis=1))
             if not len(rows):
                 continue
-            low, high = start + int(rows[0]), start + int(rows[-1]) + 1
-            columns = slice(first - margin, last + margin)
-            quarters = self._contents.quarters(low - margin, high + margin, columns)
+            part = slice(int(rows[0]), int(rows[-1]) + 1), slice(first, last)
+            sides = zip((span.start, span.first), part)
+            ends = (start + end for start, side in sides for end in (side.start, side.stop))
+            quarters = self._contents.quarters(Span(*ends).wider(margin))
             closed = closing(quarters, radius)[2 * margin : -2 * margin, 2 * margin : -2 * margin]
             all_four = closed[::2, ::2] & closed[1::2, ::2] & closed[::2, 1::2] & closed[1::2, 1::2]
-            part = slice(low - start, high - start), slice(first, last)
             cells[part] &= all_four | ~border[part]
 
 

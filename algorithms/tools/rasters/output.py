@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
@@ -13,18 +14,19 @@ from ...core.errors import BareEarthError
 from ...core.files import Outputs, new_folder
 from ...core.points import Box, Frame, box_in_words, box_round
 from ...core.progress import SILENT, Progress
+from ...core.words import option
 from ...engine.summary import RunSummary
 from ...grids.cell_window import CellWindow
 from ...grids.expected_error import ExpectedAccuracy
 from ...rasters.cell_grid import ANYWHERE, MOST_CELLS, CellGrid, RasterTarget, no_points
-from ...rasters.geotiff import NO_GROUND, RasterGrid, check_cells
+from ...rasters.geotiff import NO_GROUND, RasterGrid
 from ...rasters.virtual import folder_of, virtual_of, write_virtual
-from ...rasters.writing import Band, Rows, raster_file, write_geotiff
+from ...rasters.writing import Band, RasterCells, raster_file, write_geotiff
 from ...survey.area import Area
 from .block import BlockRasters, RasterStep
 from .fixed_terrain import FixedTerrain
 from .level_water import WaterCells
-from .mosaic import Mosaic, gathered_strips
+from .mosaic import Mosaic, made_parts
 from .outlines import CellContents, Outlines, mosaics_of
 from .parameters import SurfaceModel, TerrainModel
 from .rows import RASTERS, How, Raster, RasterFiles
@@ -33,7 +35,7 @@ from .rows import RASTERS, How, Raster, RasterFiles
 # gaps lie inside the survey.
 AROUND_AREA = 1000.0
 # Writes a raster, given what `write_geotiff` is given.
-WriteCells = Callable[[Path, Rows, RasterGrid, float, Progress, str], None]
+WriteCells = Callable[[Path, RasterCells, RasterGrid, float, Progress, str], None]
 
 
 @dataclass(frozen=True)
@@ -108,18 +110,11 @@ def write_rasters(
     with names when `outputs` is closed, or with a function of the caller; refuse no points.
     """
     write_cells = write_cells or partial(_write_geotiff, outputs)
-    window, area = _window_of(blocks, step.cell), None
-    whole = window
-    if step.area is not None:
-        area = step.area.scaled(frame.horizontal_unit, frame.origin)
-        whole = CellWindow.around(area.buffered_box(AROUND_AREA), step.cell).within(window)
-        window = CellWindow.around(area.bounds, step.cell).within(window)
-        if window.is_empty:
-            raise no_point_in(step.area)
+    area = step.area and step.area.scaled(frame.horizontal_unit, frame.origin)
+    window, whole = _windows(blocks, step, frame, area)
     water = WaterCells(step.fixed.waters if step.fixed else (), whole, step.cell)
     outlines = Outlines(CellContents(blocks, whole, water), step.of_block)
     mosaics = mosaics_of(blocks, whole, step.of_block, outlines, progress.part(0.0, 0.3))
-    window = _covered(window, step, frame)
     windows = None if files is None else _windows_of(files, window, step.cell, frame)
     parts = progress.part(0.3, 1.0).shares(*[1.0] * len(step.files.wanted))
     expected = ExpectedAccuracy()
@@ -172,9 +167,9 @@ def _write(
     if expected is not None:
         make = partial(_telling, make, expected, step.model.error_factor)
     make = partial(known.seeing, make, nodata)
-    strips = gathered_strips(layers, window, make, raster.margin(how), progress)
-    rows = Rows(window.shape, raster.kind, strips, raster.bands)
-    write_cells(path, rows, grid, nodata, progress, raster.shows)
+    parts, count = made_parts(layers, window, make, raster.margin(how), progress)
+    cells = RasterCells(window.shape, raster.kind, parts, raster.bands, count)
+    write_cells(path, cells, grid, nodata, progress, raster.shows)
     return grid
 
 
@@ -214,20 +209,33 @@ def _window_of(blocks: Sequence[BlockRasters], cell: float) -> CellWindow:
     if not len(boxes):
         raise BareEarthError(NO_GROUND)
     window = CellWindow.around(box_round(boxes), cell)
-    area = np.prod(boxes[:, 2:] - boxes[:, :2] + cell, axis=1).sum()
-    covered = area / (window.rows * window.columns * cell**2)
-    check_cells(window.columns, window.rows, cell, lambda: covered, MOST_CELLS)
     return window
 
 
-def _covered(window: CellWindow, step: Drawing, frame: Frame) -> CellWindow:
-    """Return the cells of the rasters, given those that have points."""
+def _windows(
+    blocks: Sequence[BlockRasters], step: Drawing, frame: Frame, area: Area | None
+) -> tuple[CellWindow, CellWindow]:
+    """Return the cells of the rasters, and those that are made for them, given the area in metres;
+    refuse rasters without points or with too many cells.
+    """
+    whole = window = _window_of(blocks, step.cell)
     wanted = step.cells.window
-    if wanted is None:
-        return window
-    if wanted.within(window).is_empty:
-        raise no_points(*(step.cells.of(cells, frame).box for cells in (wanted, window)))
-    return wanted
+    if area is not None:
+        whole = CellWindow.around(area.buffered_box(AROUND_AREA), step.cell).within(window)
+        window = CellWindow.around(area.bounds, step.cell).within(window)
+        if window.is_empty:
+            raise no_point_in(step.area)
+    if wanted is not None:
+        if wanted.within(window).is_empty:
+            raise no_points(*(step.cells.of(cells, frame).box for cells in (wanted, window)))
+        whole = whole.within(wanted.wider(math.ceil(AROUND_AREA / step.cell)))
+    if whole.rows * whole.columns > MOST_CELLS:
+        raise BareEarthError(
+            f"The rasters would have {whole.columns:,} x {whole.rows:,} cells of {step.cell:g} m."
+            f" Choose a larger cell size, or give the extent of the rasters"
+            f" ({option('raster_extent')})."
+        )
+    return wanted or window, whole
 
 
 def no_point_in(area: Area) -> BareEarthError:
