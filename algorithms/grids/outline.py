@@ -99,15 +99,18 @@ class Outline:
                 low, high = max(i * _ROWS, start), min((i + 1) * _ROWS, end)
                 west, east = max(k * _COLUMNS, first), min((k + 1) * _COLUMNS, last)
                 part = self._part(i, k)[low - i * _ROWS : high - i * _ROWS]
-                cells[low - span.start : high - span.start, west - span.first : east - span.first] = (
-                    part[:, west - k * _COLUMNS : east - k * _COLUMNS]
-                )
+                cells[
+                    low - span.start : high - span.start, west - span.first : east - span.first
+                ] = part[:, west - k * _COLUMNS : east - k * _COLUMNS]
         return cells
 
     def _places(self, span: Span) -> Iterator[tuple[int, int]]:
         """Return the places of the parts that a span touches."""
         start, end, first, last = span.within(self.shape)
-        rows, columns = range(start // _ROWS, -(-end // _ROWS)), range(first // _COLUMNS, -(-last // _COLUMNS))
+        rows, columns = (
+            range(start // _ROWS, -(-end // _ROWS)),
+            range(first // _COLUMNS, -(-last // _COLUMNS)),
+        )
         return itertools.product(rows, columns)
 
     def _part(self, i: int, k: int) -> np.ndarray:

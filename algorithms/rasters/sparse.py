@@ -49,7 +49,8 @@ class _Level(NamedTuple):
     def of(cls, shape: tuple[int, int]) -> _Level:
         """Return a level without any tile."""
         tiles = [-(-side // SIDE) for side in shape]
-        return cls(shape, *np.zeros((2, *tiles), dtype=np.uint64), {})
+        offsets, sizes = np.zeros((2, *tiles), dtype=np.uint64)
+        return cls(shape, offsets, sizes, {})
 
 
 class Part(NamedTuple):
@@ -84,9 +85,7 @@ class SparseFile:
     # predictor for the kind of its cells, as the libraries make it. Tiles wait in the files
     # `cells`, those of the raster, and `overviews`.
 
-    def __init__(
-        self, template: Path, cells: BinaryIO, overviews: BinaryIO, nodata: float
-    ) -> None:
+    def __init__(self, template: Path, cells: BinaryIO, overviews: BinaryIO, nodata: float) -> None:
         self._entries, self._nodata = _directory_of(template), nodata
         self._files = cells, overviews
         shape = self._number(_LENGTH), self._number(_WIDTH)
@@ -133,7 +132,9 @@ class SparseFile:
             level.offsets[place], level.sizes[place] = file.tell(), len(data)
             file.write(data)
         for (i, k), cells in zip(filled, halved):
-            above = self._levels[number + 1].waiting.setdefault((i // 2, k // 2), self._empty(cells))
+            above = self._levels[number + 1].waiting.setdefault(
+                (i // 2, k // 2), self._empty(cells)
+            )
             half = SIDE // 2
             above[i % 2 * half :, k % 2 * half :][:half, :half] = cells
 
@@ -172,7 +173,7 @@ class SparseFile:
 
     def _place_tiles(self, start: int) -> None:
         """Let the offsets of tiles count from the start of the file."""
-        cells, overviews = (file.tell() for file in self._files)
+        overviews = self._files[1].tell()
         for number, level in enumerate(self._levels):
             level.offsets[level.sizes > 0] += np.uint64(start if number else start + overviews)
 

@@ -55,7 +55,7 @@ class RasterCells(NamedTuple):
     kind: str  # "float32" or "uint8"
     parts: Iterable[Part]
     bands: int = 1  # 1, or 3 for red, green and blue
-    count: int | None = None  # cells in all parts; None for all of the raster
+    made: int | None = None  # cells in all parts; None for all of the raster
 
     @classmethod
     def of(cls, values: np.ndarray) -> RasterCells:
@@ -66,7 +66,7 @@ class RasterCells(NamedTuple):
     def are_sparse(self) -> bool:
         """Whether most of a large raster has no data, so that it costs what has data."""
         size = math.prod(self.shape)
-        return self.count is not None and 2 * self.count < size and size > _MOST_IN_MEMORY
+        return self.made is not None and 2 * self.made < size and size > _MOST_IN_MEMORY
 
 
 class Band(NamedTuple):
@@ -150,7 +150,7 @@ def _waiting_file(path: Path, cells: RasterCells) -> Path | None:
         return None
     tiles = math.prod(-(-count // _TILE) for count in cells.shape)
     needed = tiles * cells.bands * _BYTES_ABOUT_A_TILE
-    made = tiles * _TILE**2 if cells.count is None else cells.count
+    made = tiles * _TILE**2 if cells.made is None else cells.made
     needed += made * cells.bands * np.dtype(cells.kind).itemsize
     if shutil.disk_usage(path.parent).free < needed:
         raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))

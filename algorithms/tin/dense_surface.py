@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import itertools
 import math
+from typing import Callable
 
 import numpy as np
 
@@ -73,12 +74,17 @@ class DenseSurface:
             for first, count in zip(self._first, shape)
         )
 
+        far = self._far_tiles(max_edge)
+
         def fill(place: tuple[int, int]) -> None:
             starts = [number * side - first for number, first in zip(place, self._first)]
             cells = tuple(
                 slice(max(start, 0), min(start + side, count))
                 for start, count in zip(starts, shape)
             )
+            if far(place):
+                sure[cells] = True
+                return
             row, column = (
                 np.arange(part.start - start, part.stop - start) * VERTICES_A_SIDE + 1
                 for part, start in zip(cells, starts)
@@ -91,6 +97,8 @@ class DenseSurface:
 
         in_threads(fill, itertools.product(rows, columns), progress.part(0.0, 0.5))
         left = np.flatnonzero(~sure)
+        if max_edge is not None and len(left) > self._points.count:
+            left = left[self._near(shape, max_edge / math.sqrt(3.0)).ravel()[left]]
         if len(left):
             row, column = np.divmod(left, shape[1])
             x, y = (
@@ -173,6 +181,35 @@ class DenseSurface:
         """Return the heights of the queries in a tile, and which of them are certain."""
         longest = np.inf if max_edge is None else max_edge / self.thinned.side
         return LocalDelaunay(self.thinned, place, are_corners, longest).heights(queries)
+
+    def _near(self, shape: tuple[int, int], reach: float) -> np.ndarray:
+        """Return which cells, in squares of half the reach, can lie within it of a point."""
+        side = reach / 2.0
+        places = [np.floor(axis / side).astype(np.int64) for axis in self._points[1::-1]]
+        first = [place.min() - 4 for place in places]
+        held = np.zeros([np.ptp(place) + 9 for place in places], dtype=bool)
+        held[tuple(place - start for place, start in zip(places, first))] = True
+        held = within_square(np.maximum, held, 3)
+        anchor, found = self.thinned.anchor[::-1], []
+        for axis, count in enumerate(shape):
+            centres = (self._first[axis] + np.arange(count) + 0.5) * self._cell + anchor[axis]
+            square = np.floor(centres / side).astype(np.int64) - first[axis]
+            found.append(np.where((square >= 0) & (square < held.shape[axis]), square, 0))
+        return held[np.ix_(*found)]
+
+    def _far_tiles(self, max_edge: float | None) -> Callable[[tuple[int, int]], bool]:
+        """Return a function that tells which tiles no triangle that counts can reach."""
+        if max_edge is None:
+            return lambda place: False
+        # A place in a triangle is nearer to one of its corners.
+        reach = math.ceil(max_edge / math.sqrt(3.0) / (TILE * self.thinned.side)) + 1
+        across = range(-reach, reach + 1)
+        near = {
+            (row + i, column + k)
+            for row, column in self.thinned.tiles
+            for i, k in itertools.product(across, across)
+        }
+        return lambda place: place not in near
 
     def _rest(
         self,

@@ -39,7 +39,10 @@ def _reader(cells):
         found = np.zeros(span.shape, dtype=bool)
         start, end, first, last = span.within(cells.shape)
         if start < end and first < last:
-            inside = slice(start - span.start, end - span.start), slice(first - span.first, last - span.first)
+            inside = (
+                slice(start - span.start, end - span.start),
+                slice(first - span.first, last - span.first),
+            )
             found[inside] = cells[start:end, first:last]
         return found
 

@@ -177,7 +177,12 @@ def test_a_cancel_closes_the_cells_that_wait_on_disk_before_it_removes_them(tmp_
     grid = RasterGrid(0.0, 9.0, 1.0, 9, 9, Frame())
     with pytest.raises(Cancelled):
         write_geotiff(
-            tmp_path / "a.tif", RasterCells((9, 9), "uint8", parts()), grid, 255, Progress(), "classes"
+            tmp_path / "a.tif",
+            RasterCells((9, 9), "uint8", parts()),
+            grid,
+            255,
+            Progress(),
+            "classes",
         )
     assert [file for file in removed if file.endswith(".cells.tif")] and not os.listdir(tmp_path)
 

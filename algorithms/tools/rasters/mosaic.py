@@ -59,7 +59,7 @@ class Mosaic:
         return part
 
     def meets(self, span: Span) -> bool:
-        """Return whether the layer can have values in a span, whatever is near in all directions."""
+        """Return whether the layer can have values in a span."""
         return all(outline.meets(span) for outline in self._outlines)
 
     def cells(self, span: Span) -> np.ndarray:

@@ -118,16 +118,16 @@ class Squares(NamedTuple):
 
     row: np.ndarray
     column: np.ndarray
-    count: np.ndarray
+    cells: np.ndarray
 
     @classmethod
-    def of(cls, row: np.ndarray, column: np.ndarray, count: np.ndarray) -> Squares:
+    def of(cls, row: np.ndarray, column: np.ndarray, cells: np.ndarray) -> Squares:
         """Return the squares, of which some are given several times."""
-        has = count > 0
+        has = cells > 0
         width = int(column.max(initial=0)) + 1
         places, back = np.unique(row[has] * width + column[has], return_inverse=True)
         total = np.zeros(len(places), dtype=np.int64)
-        np.add.at(total, back.ravel(), count[has])
+        np.add.at(total, back.ravel(), cells[has])
         return cls(places // width, places % width, total)
 
     @property
@@ -138,11 +138,11 @@ class Squares(NamedTuple):
         within = np.ones(len(places), dtype=bool)
         for beside in (-width - 1, -width, -width + 1, -1, 1, width - 1, width, width + 1):
             within &= np.isin(places + beside, places)
-        return float(np.median(self.count[within] if within.any() else self.count))
+        return float(np.median(self.cells[within] if within.any() else self.cells))
 
     def joined(self) -> Squares:
         """Return squares of twice the side."""
-        return Squares.of(self.row // 2, self.column // 2, self.count)
+        return Squares.of(self.row // 2, self.column // 2, self.cells)
 
 
 _NO_SQUARES = np.zeros((4, 0), dtype=np.int64)
@@ -154,9 +154,9 @@ def _apart(squares: Squares, across: int, area: int) -> float:
     """
     # It is never more than if they were spread evenly over the raster: a small one is only a part
     # of a square.
-    if not len(squares.count):
+    if not len(squares.cells):
         return 1.0
-    side, widest = _SQUARE, math.sqrt(area / int(squares.count.sum()))
+    side, widest = _SQUARE, math.sqrt(area / int(squares.cells.sum()))
     while squares.usual < _FEWEST and across > 1:
         squares, side, across = squares.joined(), 2 * side, -(-across // 2)
     return max(min(side / math.sqrt(squares.usual), widest), 1.0)
@@ -183,9 +183,7 @@ class Outlines:
 
     def survey(self, progress: Progress = SILENT) -> Outline:
         """Return the outline of all points."""
-        return with_gaps_inside(
-            self._closed, self._shape, progress, self._near_by(self._of_points)
-        )
+        return with_gaps_inside(self._closed, self._shape, progress, self._near_by(self._of_points))
 
     def _closed(self, span: Span) -> np.ndarray:
         return self._of_points.cells(span) | self._contents.points(span)

@@ -34,6 +34,8 @@ from .rows import RASTERS, How, Raster, RasterFiles
 # Metres from the area up to which cells are made as well, because the surroundings decide which
 # gaps lie inside the survey.
 AROUND_AREA = 1000.0
+# Most cells of rasters that are empty for the most part.
+_MOST_WITH_EMPTY = 10 * MOST_CELLS
 # Writes a raster, given what `write_geotiff` is given.
 WriteCells = Callable[[Path, RasterCells, RasterGrid, float, Progress, str], None]
 
@@ -220,7 +222,7 @@ def _windows(
     """
     whole = window = _window_of(blocks, step.cell)
     wanted = step.cells.window
-    if area is not None:
+    if area is not None and step.area is not None:
         whole = CellWindow.around(area.buffered_box(AROUND_AREA), step.cell).within(window)
         window = CellWindow.around(area.bounds, step.cell).within(window)
         if window.is_empty:
@@ -229,7 +231,9 @@ def _windows(
         if wanted.within(window).is_empty:
             raise no_points(*(step.cells.of(cells, frame).box for cells in (wanted, window)))
         whole = whole.within(wanted.wider(math.ceil(AROUND_AREA / step.cell)))
-    if whole.rows * whole.columns > MOST_CELLS:
+    shared = (block.window.within(whole) for block in blocks)
+    filled = sum(math.prod(part.shape) for part in shared if not part.is_empty)
+    if math.prod(whole.shape) > _MOST_WITH_EMPTY or filled > MOST_CELLS:
         raise BareEarthError(
             f"The rasters would have {whole.columns:,} x {whole.rows:,} cells of {step.cell:g} m."
             f" Choose a larger cell size, or give the extent of the rasters"

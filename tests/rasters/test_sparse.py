@@ -1,0 +1,122 @@
+"""Rasters of surveys in pieces far apart: empty land takes neither time nor space."""
+
+import numpy as np
+import pytest
+from surveys import ORIGIN, write
+
+import bare_earth
+from bare_earth.algorithms.core.points import Frame
+from bare_earth.algorithms.core.progress import Progress
+from bare_earth.algorithms.rasters import writing
+from bare_earth.algorithms.rasters.geotiff import RasterGrid
+from bare_earth.algorithms.rasters.sparse import Part
+from bare_earth.algorithms.rasters.writing import RasterCells, write_geotiff
+
+rasterio = pytest.importorskip("rasterio")
+
+SIDE = 40.0  # metres of a piece
+FAR = 22_000.0
+
+
+def _piece(path, east=0.0, north=0.0, seed=0):
+    """Write a piece of a hillside of class 2."""
+    x, y = np.random.default_rng(seed).uniform(0.0, SIDE, (2, 3000))
+    z = 100.0 + 0.1 * x + np.sin(y / 5.0)
+    metres = np.column_stack((x + east, y + north, z))
+    return write(path, np.round(metres * 100).astype(np.int64), classes=2)
+
+
+def _read(path, east, north, side=SIDE):
+    """Return the cells of a square, from its southwestern corner."""
+    with rasterio.open(path) as raster:
+        corner = ORIGIN[0] + east, ORIGIN[1] + north
+        window = raster.window(*corner, corner[0] + side, corner[1] + side)
+        return raster.read(1, window=window.round_offsets().round_lengths(), boundless=True)
+
+
+@pytest.fixture(scope="module")
+def pieces(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("pieces")
+    paths = [
+        _piece(folder / "a.laz"), _piece(folder / "b.laz", FAR, 0.4 * FAR, 1)
+    ]  # fmt: skip
+    names = {"dtm": "dtm.tif", "hillshade": "hillshade.tif", "dsm": "dsm.tif", "vat": "vat.tif"}
+    for key, sources in (("both", paths), ("a", paths[0]), ("b", paths[1])):
+        (folder / key).mkdir()
+        bare_earth.terrain(sources, **{name: folder / key / file for name, file in names.items()})
+    return folder
+
+
+@pytest.mark.parametrize("name", ["dtm", "dsm", "hillshade", "vat"])
+def test_two_pieces_far_apart_have_the_cells_of_each(pieces, name):
+    both = pieces / "both" / f"{name}.tif"
+    for key, east, north in (("a", 0.0, 0.0), ("b", FAR, 0.4 * FAR)):
+        alone, joined = (_read(path, east, north) for path in (pieces / key / f"{name}.tif", both))
+        assert np.array_equal(alone, joined)
+    with rasterio.open(both) as raster:
+        assert raster.shape[0] * raster.shape[1] > 150_000_000
+        small = raster.read(1, out_shape=(raster.height // 64, raster.width // 64), masked=True)
+        assert 0 < small.count() < 10
+    assert both.stat().st_size < 300_000
+
+
+def test_a_stray_point_leaves_the_rasters_of_an_extent_as_they_are(tmp_path):
+    x, y = np.random.default_rng(0).uniform(0.0, SIDE, (2, 3000))
+    x[0], y[0] = 2_999_999.5, 2_399_999.5
+    metres = np.column_stack((x, y, np.full(3000, 100.0)))
+    path = write(tmp_path / "a.laz", np.round(metres * 100).astype(np.int64), classes=2)
+    extent = [ORIGIN[0], ORIGIN[1], ORIGIN[0] + SIDE, ORIGIN[1] + SIDE]
+    for name, given in (("a", {"extent": extent}), ("b", {"raster_extent": extent})):
+        dtm = tmp_path / f"{name}.tif"
+        bare_earth.terrain(path, dtm=dtm, **given)
+        with rasterio.open(dtm) as raster:
+            assert raster.shape == (SIDE, SIDE) and (raster.read(1) > 0).mean() > 0.95
+    with pytest.raises(bare_earth.BareEarthError, match=r"3,000,000 x 2,400,000 .*raster_extent"):
+        bare_earth.terrain(path, dtm=tmp_path / "c.tif")
+
+
+@pytest.mark.parametrize("kind, bands, nodata", [
+    ("float32", 1, -9999.0), ("float32", 1, np.nan), ("uint8", 1, 255.0), ("uint8", 3, 0.0),
+])  # fmt: skip
+def test_a_sparse_raster_has_its_cells_and_means_of_them(
+    tmp_path, monkeypatch, kind, bands, nodata
+):
+    monkeypatch.setattr(writing, "_MOST_IN_MEMORY", 1)
+    random, shape = np.random.default_rng(3), (1700, 2900)
+    whole = np.full((bands, *shape), nodata, kind)
+    parts = []
+    for row, column, rows, columns in (
+        (0, 1024, 300, 256),
+        (1024, 0, 256, 256),
+        (1536, 2816, 164, 84),
+    ):
+        values = random.uniform(1.0, 200.0, (bands, rows, columns)).astype(kind)
+        values[:, random.random((rows, columns)) < 0.3] = nodata
+        whole[:, row : row + rows, column : column + columns] = values
+        parts.append(Part(row, column, values if bands > 1 else values[0]))
+    cells = RasterCells(shape, kind, iter(parts), bands, made=200_000)
+    grid = RasterGrid(500_000.0, 5_500_000.0, 1.0, *shape[::-1], Frame())
+    path = tmp_path / "a.tif"
+    write_geotiff(path, cells, grid, nodata, Progress(), "Height")
+    assert list(tmp_path.iterdir()) == [path]
+    with rasterio.open(path) as raster:
+        assert np.array_equal(raster.read(), whole, equal_nan=True)
+        assert raster.overviews(1) == [2, 4, 8, 16] and raster.transform.c == 500_000.0
+        assert raster.descriptions[0] == "Height"
+        assert raster.get_tag_item("BLOCK_OFFSET_0_0", "TIFF", 1) is None
+    with rasterio.open(path, OVERVIEW_LEVEL=1) as overview:
+        found = overview.read().astype(float)
+    known = np.isnan(whole) if np.isnan(nodata) else whole == nodata
+    values = np.where(known, np.nan, whole.astype(float))
+    for _ in range(2):
+        padded = np.pad(
+            values,
+            [(0, 0)] + [(0, count % 2) for count in values.shape[1:]],
+            constant_values=np.nan,
+        )
+        squares = padded.reshape(bands, padded.shape[1] // 2, 2, -1, 2)
+        with np.errstate(invalid="ignore"):
+            values = np.nansum(squares, axis=(2, 4)) / (~np.isnan(squares)).sum(axis=(2, 4))
+        values = np.floor(values + 0.5) if kind == "uint8" else values
+    expected = np.where(np.isnan(values), nodata, values)
+    assert np.allclose(found, expected, rtol=1e-5, equal_nan=True)
