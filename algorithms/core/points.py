@@ -22,6 +22,12 @@ def box_round(boxes: np.ndarray) -> Box:
     return (*boxes[:, :2].min(axis=0).tolist(), *boxes[:, 2:].max(axis=0).tolist())
 
 
+def scaled(box: Box, factor: float) -> Box:
+    """Return a box with coordinates that are multiplied, such as by the metres in a unit."""
+    west, south, east, north = box
+    return west * factor, south * factor, east * factor, north * factor
+
+
 @dataclass(frozen=True)
 class Frame:
     """The position of local metres in the coordinate reference system of the survey."""

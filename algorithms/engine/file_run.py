@@ -35,7 +35,7 @@ class OneFile(Execution):
 
     def open(self, inputs: Inputs) -> None:
         """Open the file, and refuse before any reading what its header shows to be unsuitable."""
-        (self._las,) = inputs.open().tiles
+        (self._las,) = inputs.open(self.progress).tiles
         for step in self.steps:
             step.placed(place_of(self._las))
 

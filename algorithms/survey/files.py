@@ -26,6 +26,7 @@ from ..las.sources import read_text
 from .common_crs import common_crs, names_of
 from .copies import copies_in, tell_of_twins
 from .overview import is_overview
+from .pieces import Piece, pieces_of, tell_of_strays
 from .shapes import Place
 from .vpc import SUFFIX as VPC_SUFFIX
 from .vpc import no_extent, read_vpc
@@ -82,7 +83,9 @@ class Inputs(Tuple[Path, ...]):
         if self.is_survey or self.opened is not None:
             return open_survey(self, progress)
         las = open_las(self[0], self.stated)
-        return Survey((las,), (), read_crs(las), self.stated)
+        survey = Survey((las,), (), read_crs(las), self.stated)
+        tell_of_strays(survey.pieces, progress)
+        return survey
 
 
 @dataclass(frozen=True)
@@ -121,6 +124,11 @@ class Survey:
     @cached_property
     def _boxes(self) -> np.ndarray:
         return np.array([tile.outer_box for tile in self.tiles])
+
+    @cached_property
+    def pieces(self) -> list[Piece]:
+        """The parts of the survey that lie far apart, the one with the most points first."""
+        return pieces_of(self.tiles, self.crs.horizontal_unit)
 
     def touching(self, box: Box) -> list[LasFile]:
         """Return the tiles whose extents touch a box, including borders."""
@@ -178,7 +186,9 @@ def open_survey(sources: Sources, progress: Progress = SILENT) -> Survey:
     tiles, systems = (list(column) for column in zip(*pairs))
     crs = common_crs(tiles, systems, progress)
     tell_of_twins(tiles, progress)
-    return Survey(tuple(tiles), tuple(broken), crs, stated, tuple(empty))
+    survey = Survey(tuple(tiles), tuple(broken), crs, stated, tuple(empty))
+    tell_of_strays(survey.pieces, progress)
+    return survey
 
 
 def find_files(

@@ -22,7 +22,7 @@ from water_scenes import (
 from bare_earth import BareEarthError
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.tools.water.descent import isotonic
-from bare_earth.algorithms.tools.water.grid import WaterGrid, cell_for
+from bare_earth.algorithms.tools.water.grid import cell_for, grids_of
 
 
 @pytest.mark.parametrize("kind", ["empty", "sparse", "class 9"])
@@ -228,7 +228,9 @@ def test_what_cannot_be_done_is_said(survey, tmp_path, capsys):
 
 def test_too_many_cells_are_refused():
     with pytest.raises(BareEarthError, match="Choose cells of 13 m"):
-        WaterGrid((0.0, 0.0, 1e5, 1e5), 1.0)
+        grids_of([(0.0, 0.0, 1e5, 1e5)], 1.0)
+    with pytest.raises(BareEarthError, match="Choose cells of 13 m"):
+        grids_of([(0.0, 0.0, 1e5, 5e4), (1e7, 0.0, 1e7 + 1e5, 5e4)], 1.0)
     assert cell_for(1e6, 100_000_000) == 1.0
     assert cell_for(1e6, 250_000, 2.0) == 2.0
 

@@ -156,7 +156,7 @@ class _Marks(NamedTuple):
 
 
 def find_water(grid: WaterGrid, how: Water, progress: Progress = SILENT) -> list[WaterBody]:
-    """Return the water of a survey, from north to south."""
+    """Return the water of a piece of a survey, from north to south."""
     search = _Search(grid, how)
     none, covered = (np.zeros(grid.shape, dtype=bool) for _ in range(2))
     first, second = progress.shares(1.0, 1.0)
@@ -169,7 +169,13 @@ def find_water(grid: WaterGrid, how: Water, progress: Progress = SILENT) -> list
         for region in search.regions(level, covered, second):
             if region.level.any():
                 bodies += search.bodies_in(region, covered)
-    return sorted(bodies, key=lambda body: (-body.rings[0][:, 1].max(), body.rings[0][:, 0].min()))
+    return sorted(bodies, key=north_first)
+
+
+def north_first(body: WaterBody) -> tuple[float, float]:
+    """Return a key that sorts water from north to south."""
+    shore = body.rings[0]
+    return -float(shore[:, 1].max()), float(shore[:, 0].min())
 
 
 class _Search:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Iterator
+from typing import Iterator, Sequence
 
 import numpy as np
 
@@ -54,21 +54,14 @@ def _smallest_cell(extent: float) -> float:
 
 
 class WaterGrid:
-    """The cells of a survey with a box in metres, counted from (0, 0) of its frame, with rows from
-    south to north; too many cells are refused.
+    """The cells of a piece of a survey with a box in metres, counted from (0, 0) of its frame, with
+    rows from south to north.
     """
 
     def __init__(self, box: Box, cell: float) -> None:
         west, south, east, north = (math.floor(side / cell) for side in box)
         self.cell, self.row, self.column = cell, south, west
         self.shape = north - south + 1, east - west + 1
-        count = self.shape[0] * self.shape[1]
-        if count > _MOST_CELLS:
-            least = _smallest_cell(count * cell**2)
-            raise BareEarthError(
-                f"Cells of {cell:g} m would be {count:,} in this survey, and"
-                f" {_MOST_CELLS:,} is the most. Choose cells of {least:g} m, or give fewer files."
-            )
         # Lowest last return and lowest ground point in metres; infinite where there is none.
         self.lowest, self.ground = (np.full(self.shape, np.inf, np.float32) for _ in range(2))
         # Last returns, and those of class 9.
@@ -97,6 +90,16 @@ class WaterGrid:
         for heights, mask in ((self.lowest.ravel(), last), (self.ground.ravel(), ground)):
             lower_at(heights, cells[mask & inside], points.z[mask & inside].astype(np.float32))
         self.decks.ravel()[cells[decks & inside]] = True
+
+    def meets(self, box: Box) -> bool:
+        """Return whether a box in metres touches the cells."""
+        west, south, east, north = np.divide(box, self.cell)
+        return bool(
+            west <= self.column + self.shape[1]
+            and east >= self.column
+            and south <= self.row + self.shape[0]
+            and north >= self.row
+        )
 
     def class_in(self, window: Window = (slice(None), slice(None))) -> np.ndarray:
         """Return which cells of a window have mostly points of class 9; bool."""
@@ -158,6 +161,19 @@ class WaterGrid:
         low, high = np.minimum(*sides), np.maximum(*sides)
         centres = np.arange(full.shape[1]) + 0.5
         return (centres >= low[:, None]) & (centres <= high[:, None])
+
+
+def grids_of(boxes: Sequence[Box], cell: float) -> list[WaterGrid]:
+    """Return the grids of the pieces of a survey, boxes in metres; refuse too many cells."""
+    sides = (np.floor(np.divide(box, cell)) for box in boxes)
+    count = sum(int((north - south + 1) * (east - west + 1)) for west, south, east, north in sides)
+    if count > _MOST_CELLS:
+        least = _smallest_cell(count * cell**2)
+        raise BareEarthError(
+            f"Cells of {cell:g} m would be {count:,} in this survey, and"
+            f" {_MOST_CELLS:,} is the most. Choose cells of {least:g} m, or give fewer files."
+        )
+    return [WaterGrid(box, cell) for box in boxes]
 
 
 def regions_of(

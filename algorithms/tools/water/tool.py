@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Iterable, Iterator, Sequence
@@ -23,8 +24,8 @@ from ..declaration import CLASSIFIED, CLOUD, CRS, FileTool, Output
 from ..rasters.constraints import STATION, Constraints
 from ..rasters.fixed_terrain import PER_CELL, GivenTerrain
 from .bridges import decks_without_water
-from .finding import GRADES, Water, WaterBody, find_water
-from .grid import WaterGrid, cell_for
+from .finding import GRADES, Water, WaterBody, find_water, north_first
+from .grid import cell_for, grids_of
 
 # Classes of the LAS specification: of water, and of the decks of bridges.
 _WATER_CLASS = 9
@@ -158,12 +159,12 @@ def water_of(
     else:
         survey = SurveyGround.of(sources, classes, progress.part(0.0, 0.05))
     unit = survey.frame.horizontal_unit
-    boxes = np.array([tile.outer_box for tile in survey.survey.tiles]) * unit
-    area = float((boxes[:, 2:] - boxes[:, :2]).prod(axis=1).sum())
-    west, south, east, north = (float(side) * unit for side in survey.survey.box)
-    extent = (east - west) * (north - south)
-    cell = cell_for(area, survey.survey.count, how.water_cell, extent)
-    grid = WaterGrid((west, south, east, north), cell)
+    pieces = [piece for piece in survey.survey.pieces if not piece.is_stray]
+    boxes = [piece.box_in_metres for piece in pieces]
+    extent = sum((east - west) * (north - south) for west, south, east, north in boxes)
+    area, count = (sum(column) for column in zip(*((one.area, one.points) for one in pieces)))
+    cell = cell_for(area, count, how.water_cell, extent)
+    grids = grids_of(boxes, cell)
     for cloud, ground in survey.parts(progress.part(0.05, 0.9)):
         used = classes.used(cloud) & ~is_one_of(cloud.classification, NOISE)
         last = used & (cloud.return_number >= cloud.number_of_returns)
@@ -172,12 +173,17 @@ def water_of(
         )
         marks = np.array((ground, water, last, decks))
         marked = np.flatnonzero(marks.any(axis=0))
-        grid.add(cloud.points(marked, survey.frame), *marks[:, marked])
+        points = cloud.points(marked, survey.frame)
+        for grid in grids:
+            if points.count and grid.meets(points.box):
+                grid.add(points, *marks[:, marked])
     survey.check()
-    bodies = find_water(grid, how, progress.part(0.9, 1.0))
+    parts = progress.part(0.9, 1.0).shares(*[1.0] * len(grids))
+    found = [find_water(grid, how, part) for grid, part in zip(grids, parts)]
+    bodies = sorted(itertools.chain(*found), key=north_first)
     outlines = tuple(tuple(ring[:, :2] for ring in body.rings) for body in bodies)
     kinds, grades = [body.kind for body in bodies], [body.grade for body in bodies]
-    dry = decks_without_water(grid, outlines)
+    dry = [deck for grid in grids for deck in decks_without_water(grid, outlines)]
     summary = WaterSummary(
         kinds.count("lake"), kinds.count("river"), sum(body.area for body in bodies),
         {name: grades.count(name) for name in GRADES if name in grades}, cell, how.min_area,
