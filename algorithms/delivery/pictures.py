@@ -46,12 +46,15 @@ def _small(raster: Path) -> tuple[np.ndarray, float]:
     opened = read_raster(raster, window=NO_CELLS)
     rows, columns = opened.whole
     step = math.ceil(max(rows, columns) / LONGEST_SIDE)
+    stored, found = opened.stored, np.full((-(-rows // step), -(-columns // step)), np.nan)
     rows_at_once = max(_CELLS // columns // step, 1) * step
-    parts = [
-        reduced(opened.rows(first, first + rows_at_once), step)
-        for first in range(0, rows, rows_at_once)
-    ]
-    return np.concatenate(parts).astype(np.float64), opened.cell_metres[0] * step
+    for start in range(0, rows, rows_at_once):
+        end = min(start + rows_at_once, rows)
+        for first, last in stored.runs(start, end):
+            first, last = first // step, -(-last // step)
+            values = reduced(opened.rows(start, end, first * step, last * step), step)
+            found[start // step : -(-end // step), first:last] = values
+    return found, opened.cell_metres[0] * step
 
 
 def _heights(

@@ -67,11 +67,14 @@ class Isolines:
         self._by_first: dict[int, _Piece] = {}
         self._by_last: dict[int, _Piece] = {}
 
-    def add(self, heights: np.ndarray, row: int, is_last: bool) -> Iterator[Isoline]:
+    def add(
+        self, heights: np.ndarray, row: int, is_last: bool, column: int = 0
+    ) -> Iterator[Isoline]:
         """Add a strip of heights (NaN for none) from a `row` of the raster on, and yield the lines
         that are complete; this row must be the last one of the strip before.
         """
-        found = _segments(heights, self._interval, row)
+        # The strip begins at a column; beyond it, there is no height.
+        found = _segments(heights, self._interval, (row, column), self._columns)
         seam = np.iinfo(np.int64).max if is_last else 2 * (row + len(heights) - 1) * self._columns
         done = []
         for piece in _chains(*found):
@@ -109,7 +112,7 @@ def _distinct(parts: list[np.ndarray]) -> np.ndarray:
 
 
 def _segments(
-    heights: np.ndarray, interval: float, row: int
+    heights: np.ndarray, interval: float, corner: tuple[int, int], width: int
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """Return the nodes at which the segments of all lines begin and end, and the places of both."""
     heights = heights.astype(np.float64)
@@ -139,7 +142,7 @@ def _segments(
     index = np.concatenate(crossing)
     level, rows, columns = level[index], rows[index], columns[index]
     nodes_and_places = [
-        _nodes(heights, level, rows, columns, np.concatenate(edges), interval, row)
+        _nodes(heights, level, rows, columns, np.concatenate(edges), interval, corner, width)
         for edges in (starts, ends)
     ]
     (first, begin), (last, end) = nodes_and_places
@@ -164,7 +167,8 @@ def _nodes(
     columns: np.ndarray,
     edges: np.ndarray,
     interval: float,
-    row: int,
+    corner: tuple[int, int],  # row and column of the first height
+    width: int,  # columns of the raster
 ) -> tuple[np.ndarray, np.ndarray]:
     """Return numbers and places of the points where lines cross edges of squares."""
     rows, columns = rows + (edges == _SOUTH), columns + (edges == _EAST)
@@ -172,8 +176,9 @@ def _nodes(
     start = heights[rows, columns]
     end = heights[rows + is_vertical, columns + ~is_vertical]
     share = np.clip((level * interval - start) / (end - start), 0.0, 1.0)
-    edge = 2 * ((rows + row) * heights.shape[1] + columns) + is_vertical
-    places = np.column_stack((rows + row + share * is_vertical, columns + share * ~is_vertical))
+    rows, columns = rows + corner[0], columns + corner[1]
+    edge = 2 * (rows * width + columns) + is_vertical
+    places = np.column_stack((rows + share * is_vertical, columns + share * ~is_vertical))
     return edge * _LEVELS + level + _LEVELS // 2, places
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import partial
-from typing import Callable, NamedTuple
+from typing import Callable, NamedTuple, Sequence
 
 import numpy as np
 
@@ -18,6 +18,7 @@ from ..crs.system import Crs, crs_of_wkt, same_unit, unit_name, unit_symbol
 from ..crs.unit_names import unit_in
 from ..crs.wkt import read_wkt
 from .content import MOST_CELLS, Content, Source, Window, read_content, tell_of_undeclared
+from .stored import Stored, stored_in
 
 NODATA = -9999.0
 # Points must cover at least this share of a raster with more cells than this, counted in squares or
@@ -141,11 +142,26 @@ class Raster(NamedTuple):
     source: Source = ""
     band: int = 1
 
-    def rows(self, start: int, end: int) -> np.ndarray:
-        """Read rows of the file, those that it has, as `heights`."""
-        (rows, columns), first = self.whole, max(start, 0)
-        window = 0, first, columns, min(end, rows) - first
+    def rows(self, start: int, end: int, first: int = 0, last: int | None = None) -> np.ndarray:
+        """Read rows and columns of the file, those that it has, as `heights`."""
+        (rows, columns), start, first = self.whole, max(start, 0), max(first, 0)
+        last = columns if last is None else min(last, columns)
+        window = first, start, last - first, min(end, rows) - start
         return read_raster(self.source, self.band, window=window).heights
+
+    def within(self, runs: Sequence[tuple[int, int]], start: int, end: int) -> np.ndarray:
+        """Read the columns from the first of some runs to the last, NaN between the runs."""
+        start, end = max(start, 0), min(end, self.whole[0])
+        west, east = runs[0][0], runs[-1][1]
+        heights = np.full((end - start, east - west), np.nan, dtype=np.float32)
+        for first, last in runs:
+            heights[:, first - west : last - west] = self.rows(start, end, first, last)
+        return heights
+
+    @property
+    def stored(self) -> Stored:
+        """Which tiles of the file are stored."""
+        return stored_in(self.source, self.band, self.whole)
 
     def tell(self, progress: Progress) -> None:
         """Warn, after the cells have been read, of undeclared values for no data."""

@@ -77,9 +77,7 @@ def write_sparse(path: Path, template: Path, parts: Iterable[Part], nodata: floa
 
 
 class SparseFile:
-    """A raster to which parts are added from north to south, which begin with a tile and end with
-    one or with the raster.
-    """
+    """A raster to which parts are added from north to south."""
 
     # `template` is a BigTIFF of the same size without any tile, compressed by DEFLATE with the
     # predictor for the kind of its cells, as the libraries make it. Tiles wait in the files
@@ -104,21 +102,22 @@ class SparseFile:
         """
         self._finish(row)
         values = np.moveaxis(cells, 0, -1) if cells.ndim == 3 else cells[..., np.newaxis]
-        tiles = {}
-        for i in range(0, len(values), SIDE):
-            for k in range(0, values.shape[1], SIDE):
-                tile = self._empty(values)
-                part = values[i : i + SIDE, k : k + SIDE]
-                tile[: len(part), : part.shape[1]] = part
-                tiles[(row + i) // SIDE, (column + k) // SIDE] = tile
-        self._write(0, tiles)
+        rows, columns = values.shape[:2]
+        waiting = self._levels[0].waiting
+        for i in range(row // SIDE, -(-(row + rows) // SIDE)):
+            for k in range(column // SIDE, -(-(column + columns) // SIDE)):
+                south, west = i * SIDE - row, k * SIDE - column
+                part = values[max(south, 0) : south + SIDE, max(west, 0) : west + SIDE]
+                tile = waiting.setdefault((i, k), self._empty(values))
+                own = tile[max(-south, 0) :, max(-west, 0) :][: part.shape[0], : part.shape[1]]
+                own[...] = part
 
     def _empty(self, like: np.ndarray) -> np.ndarray:
         return np.full((SIDE, SIDE, like.shape[-1]), self._nodata, dtype=like.dtype)
 
     def _finish(self, row: float) -> None:
-        """Write the tiles of overviews that lie north of a row of the raster."""
-        for number, level in enumerate(self._levels[1:], start=1):
+        """Write the tiles that lie north of a row of the raster."""
+        for number, level in enumerate(self._levels):
             north = [place for place in level.waiting if (place[0] + 1) * SIDE << number <= row]
             self._write(number, {place: level.waiting.pop(place) for place in north})
 

@@ -121,13 +121,9 @@ def tell_of_strays(pieces: Iterable[Piece], progress: Progress) -> None:
         west, south, east, north = piece.box
         middle = f"x {(west + east) / 2.0:.10g}, y {(south + north) / 2.0:.10g}"
         progress.warning(
-            f"{counted(piece.points, 'point lies', 'points lie')} {_far(piece.strays_from)} from all"
-            f" others ({middle}): probably its coordinates are wrong. Remove it, or give the extent"
-            " of the land that you need."
-            if piece.points == 1
-            else f"{piece.points:,} points lie {_far(piece.strays_from)} from all others ({middle}):"
-            " probably their coordinates are wrong. Remove them, or give the extent of the land"
-            " that you need."
+            f"{counted(piece.points, 'point lies', 'points lie')} {_far(piece.strays_from)} from"
+            f" all others ({middle}). Check the coordinates there: if they are wrong, remove such"
+            " points, or give the extent of the land that you need."
         )
     more = sum(piece.points for piece in stray[_MOST_TOLD:])
     if more:

@@ -17,7 +17,8 @@ from ..grids.canopy import PIT_PASSES, canopy_height, without_pits
 from ..rasters.content import NO_CELLS, Source
 from ..rasters.geotiff import NODATA, Raster, read_raster
 from ..rasters.sampling import HeightRaster, HeightSampler
-from ..rasters.writing import Rows, write_geotiff
+from ..rasters.sparse import Part
+from ..rasters.writing import RasterCells, write_geotiff
 from .declaration import CANOPY, RASTER, FileTool, Input, Output
 from .rasters.parameters import SurfaceModel
 from .rasters.rows import RASTERS
@@ -68,15 +69,15 @@ class _Heights:
             )
             self._terrain = HeightSampler(HeightRaster.of(terrain))
 
-    def rows(self, start: int, end: int) -> tuple[np.ndarray, np.ndarray]:
-        """Return some rows of the surface and of the terrain."""
-        surface = self.surface.rows(start, end).astype(np.float64) * self.unit
+    def rows(self, *part: int) -> tuple[np.ndarray, np.ndarray]:
+        """Return some rows and columns of the surface and of the terrain, as `Raster.rows`."""
+        surface = self.surface.rows(*part).astype(np.float64) * self.unit
         if isinstance(self._terrain, Raster):
-            heights = self._terrain.rows(start, end)
+            heights = self._terrain.rows(*part)
         else:
             rows, columns = surface.shape
             column, row = np.meshgrid(
-                np.arange(columns) + 0.5, np.arange(rows) + max(start, 0) + 0.5
+                np.arange(columns) + max(part[2], 0) + 0.5, np.arange(rows) + max(part[0], 0) + 0.5
             )
             x, a, b, y, c, d = self.surface.geotransform
             places = x + a * column + b * row, y + c * column + d * row
@@ -95,9 +96,12 @@ def canopy_of_rasters(
     raster = read_raster(surface, window=NO_CELLS, progress=progress)
     heights = _Heights(raster, terrain, progress)
     found = _Found()
-    strips = _strips(heights, parameters.pit_free, found, progress.part(0.0, 0.9))
-    row, rows = RASTERS["chm"], Rows(raster.whole, "float32", strips)
-    write_geotiff(output, rows, raster, NODATA, progress.part(0.9, 1.0), row.shows)
+    parts = _parts(heights, parameters.pit_free, found, progress.part(0.0, 0.9))
+    row, cells = (
+        RASTERS["chm"],
+        RasterCells(raster.whole, "float32", parts, made=raster.stored.count(_CELLS)),
+    )
+    write_geotiff(output, cells, raster, NODATA, progress.part(0.9, 1.0), row.shows)
     raster.tell(progress)
     read_raster(terrain, window=NO_CELLS).tell(progress)
     found.check(surface, terrain)
@@ -131,21 +135,22 @@ class _Found:
             )
 
 
-def _strips(
+def _parts(
     heights: _Heights, fills_pits: bool, found: _Found, progress: Progress
-) -> Iterator[np.ndarray]:
+) -> Iterator[Part]:
     """Yield the canopy height, some rows at a time."""
-    count, columns = heights.surface.whole
-    step, margin = max(_CELLS // columns, 1), PIT_PASSES if fills_pits else 0
-    for start in range(0, count, step):
-        first, end = max(start - margin, 0), min(start + step, count)
-        surface, terrain = heights.rows(first, end + margin)
-        inner = slice(start - first, end - first)
-        found.add((surface - terrain)[inner])
-        canopy = canopy_height(surface, terrain)
-        canopy = (without_pits(canopy) if fills_pits else canopy)[inner] / heights.unit
-        yield np.where(np.isnan(canopy), NODATA, canopy).astype(np.float32)
-        progress(end / count)
+    margin, stored = PIT_PASSES if fills_pits else 0, heights.surface.stored
+    for start, end in stored.strips(_CELLS):
+        for first, last in stored.runs(start, end, margin):
+            south, west = max(start - margin, 0), max(first - margin, 0)
+            surface, terrain = heights.rows(south, end + margin, west, last + margin)
+            inner = slice(start - south, end - south), slice(first - west, last - west)
+            found.add((surface - terrain)[inner])
+            canopy = canopy_height(surface, terrain)
+            canopy = (without_pits(canopy) if fills_pits else canopy)[inner] / heights.unit
+            cells = np.where(np.isnan(canopy), NODATA, canopy).astype(np.float32)
+            yield Part(start, first, cells)
+        progress(end / heights.surface.whole[0])
 
 
 def _is_same_grid(one: Raster, other: Raster) -> bool:

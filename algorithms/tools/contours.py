@@ -172,36 +172,36 @@ def contours_of(
 
 def _range_of(raster: Raster, progress: Progress) -> tuple[float, float]:
     """Return the lowest and the highest height; infinite ones of a raster without any."""
-    low, high, count = math.inf, -math.inf, raster.whole[0]
-    rows = _rows_of(raster)
-    for start in range(0, count, rows):
-        heights = raster.rows(start, start + rows)
-        known = heights[np.isfinite(heights)]
-        if len(known):
-            low, high = min(low, float(known.min())), max(high, float(known.max()))
-        progress(min(start + rows, count) / count)
+    low, high, stored = math.inf, -math.inf, raster.stored
+    for start, end in stored.strips(_CELLS):
+        for run in stored.runs(start, end):
+            heights = raster.rows(start, end, *run)
+            known = heights[np.isfinite(heights)]
+            if len(known):
+                low, high = min(low, float(known.min())), max(high, float(known.max()))
+        progress(end / raster.whole[0])
     return low, high
-
-
-def _rows_of(raster: Raster) -> int:
-    return max(_CELLS // raster.whole[1], 1)
 
 
 def _lines_of(
     raster: Raster, how: Contours, interval: float, progress: Progress
 ) -> Iterator[ContourLine]:
     """Yield the lines of a raster."""
-    (count, columns), rows, unit = raster.whole, _rows_of(raster), raster.frame.horizontal_unit
+    (count, columns), unit, stored = raster.whole, raster.frame.horizontal_unit, raster.stored
+    rows = stored.step(_CELLS)
     smoothing, lines = _Smoothing.of(raster, how, interval), Isolines(interval, columns)
     for start in range(0, max(count - 1, 1), rows):
         end = min(start + rows + 1, count)  # the next strip begins with the last row
         first = max(start - smoothing.reach, 0)
-        heights = smoothing.smoothed(raster.rows(first, end + smoothing.reach))
-        rises = smoothing.rises(heights)
-        for line in lines.add(heights[start - first : end - first], start, end == count):
+        # Columns without data on both sides are left out.
+        runs = stored.runs(start, end, smoothing.reach) or [(0, 1)]
+        heights = smoothing.smoothed(raster.within(runs, first, end + smoothing.reach))
+        rises, corner = smoothing.rises(heights), np.array((first, runs[0][0]))
+        strip = heights[start - first : end - first]
+        for line in lines.add(strip, start, end == count, runs[0][0]):
             corners = corners_of(line.places, raster)
             is_short = _is_short(line, corners * unit, how.contour_min_length)
-            if not is_short or _greatest(rises, line.places, first) > _LEAST_RISE * interval:
+            if not is_short or _greatest(rises, line.places - corner) > _LEAST_RISE * interval:
                 height = float(f"{line.level * interval:.9g}")
                 yield ContourLine(height, line.level % INDEX == 0, line.is_depression, corners)
         progress(end / count)
@@ -256,10 +256,10 @@ def _half(sigma: Sigma) -> int:
     return max(round(max(sigma)), 1)
 
 
-def _greatest(values: np.ndarray, places: np.ndarray, first: int) -> float:
-    """Return the greatest value in the rectangle round a line; `first` is the first row."""
+def _greatest(values: np.ndarray, places: np.ndarray) -> float:
+    """Return the greatest value in the rectangle round a line."""
     (top, left), (bottom, right) = np.floor(places.min(axis=0)), np.ceil(places.max(axis=0))
-    part = values[max(int(top) - first, 0) : int(bottom) - first + 1, int(left) : int(right) + 1]
+    part = values[max(int(top), 0) : int(bottom) + 1, max(int(left), 0) : int(right) + 1]
     return float(np.fmax.reduce(part, axis=None, initial=0.0))
 
 

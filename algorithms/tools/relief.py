@@ -82,8 +82,10 @@ def draw_reliefs(
     for (name, path), part in zip(output.items(), progress.shares(*[1.0] * len(output))):
         row = RASTERS[name]
         nodata = row.nodata(no_data)
-        parts = _parts(raster, row, parameters.terrain, nodata, part)
-        cells = RasterCells(raster.whole, row.kind, parts, row.bands)
+        how = How(raster.cell_metres, parameters.terrain)
+        parts = _parts(raster, row, how, nodata, part)
+        made = raster.stored.count(_CELLS, row.margin(how))
+        cells = RasterCells(raster.whole, row.kind, parts, row.bands, made)
         with may_use(available_cpus()):
             write(path, cells, raster, nodata, part, row.shows)
     raster.tell(progress)
@@ -98,19 +100,19 @@ def files_of(output: Path, sets: Sequence[ParameterSet]) -> dict[str, Path]:
     return {KINDS[kind]: output / f"{kind}.tif" for kind in kinds.kinds}
 
 
-def _parts(
-    raster: Raster, row: Row, model: TerrainModel, nodata: float, progress: Progress
-) -> Iterator[Part]:
-    """Yield the relief of a raster, some rows at a time."""
-    (count, columns), how = raster.whole, How(raster.cell_metres, model)
-    unit, reach = raster.frame.vertical_unit, row.margin(how)
-    rows = max(_CELLS // columns, 1)
-    for start in range(0, count, rows):
-        first = max(start - reach, 0)
-        metres = raster.rows(first, start + rows + reach).astype(np.float64) * unit
-        relief = row.rows(metres, how=how, unit=unit, nodata=nodata)
-        yield Part(start, 0, relief[..., start - first : start - first + rows, :])
-        progress(0.05 + 0.85 * min(start + rows, count) / count)
+def _parts(raster: Raster, row: Row, how: How, nodata: float, progress: Progress) -> Iterator[Part]:
+    """Yield the relief of a raster, some rows at a time, where it has data near."""
+    unit, reach, count = raster.frame.vertical_unit, row.margin(how), raster.whole[0]
+    stored = raster.stored
+    for start, end in stored.strips(_CELLS):
+        for first, last in stored.runs(start, end, reach):
+            south, west = max(start - reach, 0), max(first - reach, 0)
+            heights = raster.rows(south, end + reach, west, last + reach)
+            metres = heights.astype(np.float64) * unit
+            relief = row.rows(metres, how=how, unit=unit, nodata=nodata)
+            rows, columns = slice(start - south, end - south), slice(first - west, last - west)
+            yield Part(start, first, relief[..., rows, columns])
+        progress(0.05 + 0.85 * end / count)
 
 
 TOOL = FileTool(

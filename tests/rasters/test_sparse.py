@@ -1,5 +1,7 @@
 """Rasters of surveys in pieces far apart: empty land takes neither time nor space."""
 
+import json
+
 import numpy as np
 import pytest
 from surveys import ORIGIN, write
@@ -7,7 +9,7 @@ from surveys import ORIGIN, write
 import bare_earth
 from bare_earth.algorithms.core.points import Frame
 from bare_earth.algorithms.core.progress import Progress
-from bare_earth.algorithms.rasters import writing
+from bare_earth.algorithms.rasters import content, geotiff, writing
 from bare_earth.algorithms.rasters.geotiff import RasterGrid
 from bare_earth.algorithms.rasters.sparse import Part
 from bare_earth.algorithms.rasters.writing import RasterCells, write_geotiff
@@ -31,7 +33,7 @@ def _read(path, east, north, side=SIDE):
     with rasterio.open(path) as raster:
         corner = ORIGIN[0] + east, ORIGIN[1] + north
         window = raster.window(*corner, corner[0] + side, corner[1] + side)
-        return raster.read(1, window=window.round_offsets().round_lengths(), boundless=True)
+        return raster.read(1, window=window.round_offsets().round_lengths())
 
 
 @pytest.fixture(scope="module")
@@ -58,6 +60,75 @@ def test_two_pieces_far_apart_have_the_cells_of_each(pieces, name):
         small = raster.read(1, out_shape=(raster.height // 64, raster.width // 64), masked=True)
         assert 0 < small.count() < 10
     assert both.stat().st_size < 300_000
+
+
+def _of_pieces(pieces, make):
+    """Return what a function makes of the files in the folders `both`, `a` and `b`."""
+    return [make(pieces / key, pieces / key / "made") for key in ("both", "a", "b")]
+
+
+def _are_joined(both, alone_a, alone_b):
+    """Return whether a raster of both pieces has the cells of the rasters of each."""
+    places = (alone_a, 0.0, 0.0), (alone_b, FAR, 0.4 * FAR)
+    return all(
+        np.array_equal(_read(both, east, north), _read(alone, east, north), equal_nan=True)
+        for alone, east, north in places
+    )
+
+
+def test_reliefs_and_canopy_of_rasters_with_empty_land_are_those_of_the_pieces(pieces, monkeypatch):
+    read = []
+    monkeypatch.setattr(
+        geotiff,
+        "read_content",
+        lambda *given: read.append(given[2]) or content.read_content(*given),
+    )
+
+    def make(folder, made):
+        kinds = ["vat", "local-relief"]
+        bare_earth.relief(folder / "dtm.tif", made, kinds=kinds)
+        bare_earth.canopy(folder / "dsm.tif", folder / "dtm.tif", made / "canopy.tif")
+        return [made / f"{kind}.tif" for kind in (*kinds, "canopy")]
+
+    for rasters in zip(*_of_pieces(pieces, make)):
+        assert _are_joined(*rasters)
+    cells = sum(columns * rows for _, _, columns, rows in filter(None, read))
+    assert cells < 30_000_000  # of 180 million in each raster
+
+
+def test_contour_lines_of_a_raster_with_empty_land_are_those_of_the_pieces(pieces):
+    def make(folder, made):
+        target = folder / "lines.geojson"
+        bare_earth.contours(folder / "dtm.tif", target, interval=0.5)
+        features = json.loads(target.read_text("utf-8"))["features"]
+        return [
+            (line["properties"]["ELEV"], np.round(line["geometry"]["coordinates"], 3).tolist())
+            for line in features
+        ]
+
+    both, a, b = _of_pieces(pieces, make)
+    assert sorted(both) == sorted(a + b) and len(a) > 10
+
+
+def test_the_quality_of_pieces_is_that_of_each(pieces):
+    def make(folder, made):
+        key = folder.name
+        sources = [pieces / f"{one}.laz" for one in ("a", "b") if key in (one, "both")]
+        target = folder / "quality"
+        page = folder / "page.html"
+        figures = bare_earth.quality(sources, page=page, folder=target, cell_size=0.5)
+        return figures, target
+
+    (both, folder), (a, of_a), (b, of_b) = _of_pieces(pieces, make)
+    assert both.points == a.points + b.points
+    assert both.area == pytest.approx(a.area + b.area)
+    assert both.ground_void_share == pytest.approx(
+        (a.ground_void_share + b.ground_void_share) / 2, abs=0.01
+    )
+    for name in ("pulse_density", "ground_density", "voids", "overlap", "surface_height"):
+        assert _are_joined(*(one / f"{name}.tif" for one in (folder, of_a, of_b)))
+    assert "in 2 pieces far apart" in (pieces / "both" / "page.html").read_text("utf-8")
+    assert "pieces far apart" not in (pieces / "a" / "page.html").read_text("utf-8")
 
 
 def test_a_stray_point_leaves_the_rasters_of_an_extent_as_they_are(tmp_path):

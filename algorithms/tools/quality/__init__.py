@@ -16,8 +16,9 @@ from ...las.cloud import survey_frame
 from ...survey.files import Inputs, Survey, open_survey
 from ...survey.repeated_points import RepeatedPoints
 from ..declaration import CLASSIFIED, CLOUD, CRS, TERRAIN, FileTool, Output
-from .cells import Grids, QualityCells, Store
+from .cells import QualityCells, Store
 from .figures import Quality
+from .grids import Grids
 from .low_confidence import write_areas
 from .made_points import MadePoints
 from .measuring import quality_of
@@ -109,9 +110,9 @@ def _filled_cells(
 ) -> QualityCells:
     """Return the cells of a survey with all of its points; `work` is a temporary folder."""
     asked = SPECIFICATIONS[options.specification]
-    west, south, east, north = (side * frame.horizontal_unit for side in survey.box)
     spacing = 2 * asked.spacing if asked.spacing else _SPACING
-    grids = Grids.over((west, south, east, north), options.cell_size, spacing)
+    boxes = [piece.box_in_metres for piece in survey.pieces]
+    grids = Grids.over(boxes, options.cell_size, spacing, options.void_distance)
     count = max(grid.window.rows * grid.window.columns for grid in (grids.fine, grids.spaced))
     store = Store(work, count, sum(tile.count for tile in survey.tiles))
     repeated = RepeatedPoints(survey.tiles, store.array)

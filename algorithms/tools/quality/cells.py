@@ -18,15 +18,15 @@ import numpy as np
 from ...classes.ground_classes import GroundClasses
 from ...classes.kept_classes import NOISE, overlapping
 from ...core.errors import BareEarthError
-from ...core.points import Box, Frame
+from ...core.points import Frame
 from ...core.progress import SILENT, Progress
-from ...grids.cell_window import CellWindow
 from ...grids.parts import parts_with
 from ...las.cloud import PointCloud
 from ...rasters.cell_grid import MOST_CELLS
 from ...report.pictures import reduced
 from ...survey.repeated_points import RepeatedPoints
 from ...survey.scratch import ScratchArrays
+from .grids import SQUARE, Grids
 from .made_points import WATER, MadePoints
 from .planes import WINDOWS, planes
 
@@ -45,14 +45,10 @@ _BYTES_A_POINT = 9
 _MOST_IN_MEMORY = 18_000_000
 # Cells: side of the squares whose planes are made together, an even number.
 _TILE = 1024
-# Cells of rows that are worked on together.
-_TOGETHER = 1 << 21
 # Heights above the ground of low vegetation. Points are compared up to this height, in metres,
 # above the lowest of their strip in the cell.
 LOW = (0.2, 2.0)
 _NEAR = 0.5
-# Side in metres of the squares that decide which area belongs to the survey.
-_SQUARE = 10.0
 
 
 class Store(ScratchArrays):
@@ -65,8 +61,8 @@ class Store(ScratchArrays):
         size = _BYTES * cells + _BYTES_A_POINT * points
         if cells > MOST_CELLS:
             raise BareEarthError(
-                f"The rasters would have {cells:,} cells. Choose a larger cell size, or remove"
-                " points with stray coordinates."
+                f"The rasters would have {cells:,} cells. Choose a larger cell size, or give fewer"
+                " files."
             )
         if not self.has_room(size):
             raise BareEarthError(
@@ -74,49 +70,6 @@ class Store(ScratchArrays):
                 f" {folder.parent} while they are counted. Free some space, or choose a larger cell"
                 " size."
             )
-
-
-class Grid(NamedTuple):
-    """Square cells of a survey, counted from (0, 0) of the CRS."""
-
-    window: CellWindow
-    size: float  # metres
-
-    def places(self, x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Return number, row and column of the cells of points in metres."""
-        row, column = self.window.places(x, y, (0.0, 0.0), self.size)
-        # The extent in a header may be slightly smaller than that of the points.
-        row = np.clip(row, 0, self.window.rows - 1)
-        column = np.clip(column, 0, self.window.columns - 1)
-        return row * self.window.columns + column, row, column
-
-    def from_centres(
-        self, x: np.ndarray, y: np.ndarray, row: np.ndarray, column: np.ndarray
-    ) -> tuple[np.ndarray, np.ndarray]:
-        """Return x and y of points from the centres of their cells, in metres."""
-        east, north = self.window.column + column + 0.5, self.window.row + row + 0.5
-        return x - east * self.size, y - north * self.size
-
-    def parts(self, multiple: int = 2) -> list[slice]:
-        """Return slices of rows that fit into memory, in multiples, from south to north."""
-        rows = self.window.rows
-        step = max(_TOGETHER // self.window.columns // multiple, 1) * multiple
-        return [slice(start, min(start + step, rows)) for start in range(0, rows, step)]
-
-
-class Grids(NamedTuple):
-    """The grids of a survey."""
-
-    fine: Grid  # with cells of the size that was chosen
-    coarse: Grid  # with cells of twice that size
-    spaced: Grid  # with cells in which first returns are looked for
-
-    @classmethod
-    def over(cls, box: Box, size: float, spacing: float) -> Grids:
-        """Return the grids that cover a box; all lengths are in metres."""
-        coarse = CellWindow.around(box, 2 * size)
-        fine, spaced = CellWindow(*(2 * count for count in coarse)), CellWindow.around(box, spacing)
-        return cls(Grid(fine, size), Grid(coarse, 2 * size), Grid(spaced, spacing))
 
 
 @dataclass
@@ -391,7 +344,7 @@ class QualityCells:
         from scipy import ndimage
 
         window = self.grids.coarse.window
-        side = max(round(_SQUARE / self.grids.coarse.size), 1)
+        side = max(round(SQUARE / self.grids.coarse.size), 1)
         # Squares are counted from (0, 0), too: the first may begin before the first cell.
         before = window.row % side, window.column % side
         margins = [(start, -(start + count) % side) for start, count in zip(before, window.shape)]

@@ -86,13 +86,15 @@ def low_confidence_of(
     sizes = np.bincount(labels.ravel())
     is_large = sizes * cell**2 >= least_area
     is_large[0] = False
-    corner, windows = fine.window.corner(fine.size), ndimage.find_objects(labels)
+    windows = ndimage.find_objects(labels)
     areas = []
     for number in np.flatnonzero(is_large).tolist():
         window = windows[number - 1]
         own = labels[window] == number
         values = (float(grid[window][own].mean(dtype=np.float64)) for grid in (density, returns))
-        rings = tuple(_rings(own, window, cell, corner))
+        piece = fine.pieces[int(fine.piece_at(window[0].start * step))]
+        row, column = fine.window.row - piece.up, fine.window.column - piece.right
+        rings = tuple(_rings(own, window, cell, (column * fine.size, row * fine.size)))
         areas.append(LowConfidenceArea(rings, float(sizes[number]) * cell**2, *values))
     areas.sort(key=lambda area: -area.area)
     low = is_large[labels]

@@ -21,6 +21,7 @@ from .specifications import SPECIFICATIONS, Specification
 
 # Steepest land in degrees on which strips are judged.
 _STEEPEST = 10.0
+_TOGETHER = 1 << 21  # cells that are looked at together
 
 
 def quality_of(
@@ -93,21 +94,24 @@ def _filled(cells: QualityCells, asked: Specification) -> dict[str, Any]:
     if asked.spacing is None:
         return {}
     spaced, coarse = cells.grids.spaced, cells.grids.coarse
-    row, column = cells_at(*spaced.window.centres(spaced.size), coarse.size)
-    column = np.clip(column - coarse.window.column, 0, coarse.window.columns - 1)
-    row = np.clip(row - coarse.window.row, 0, coarse.window.rows - 1)
     land = cells.extent.dry & cells.extent.pulses
     count = filled = void_count = 0
-    for rows in spaced.parts():
-        # With one row more, for the squares of two rows.
-        own, more = slice(0, rows.stop - rows.start), slice(rows.start, rows.stop + 1)
-        values = cells.filled[more]
-        there = land[np.ix_(row[more], column)] & (values & WET == 0)
-        missing = there & (values & PULSE == 0)
-        squares = missing[:-1, :-1] & missing[1:, :-1] & missing[:-1, 1:] & missing[1:, 1:]
-        void_count += int(np.count_nonzero(squares))
-        count += int(np.count_nonzero(there[own]))
-        filled += int(np.count_nonzero(there[own] & ~missing[own]))
+    for of_spaced, of_coarse in zip(spaced.pieces, coarse.pieces):
+        row, column = cells_at(*of_spaced.window.centres(spaced.size), coarse.size)
+        column += of_coarse.right - coarse.window.column
+        column = np.clip(column, 0, coarse.window.columns - 1)
+        row = np.clip(row + of_coarse.up - coarse.window.row, 0, coarse.window.rows - 1)
+        rows, columns = spaced.window.slices(of_spaced.moved)
+        own, step = cells.filled[rows, columns], max(_TOGETHER // len(column), 1)
+        for start in range(0, len(row), step):
+            # With one row more, for the squares of two rows.
+            values = own[start : start + step + 1]
+            there = land[np.ix_(row[start : start + step + 1], column)] & (values & WET == 0)
+            missing = there & (values & PULSE == 0)
+            squares = missing[:-1, :-1] & missing[1:, :-1] & missing[:-1, 1:] & missing[1:, 1:]
+            void_count += int(np.count_nonzero(squares))
+            count += int(np.count_nonzero(there[:step]))
+            filled += int(np.count_nonzero(there[:step] & ~missing[:step]))
     return {"filled_share": filled / count, "void_count": void_count} if count else {}
 
 

@@ -49,7 +49,7 @@ def quality_html(
                 " returns have the flag of overlap."
             ),
         ),
-        section("Maps", maps(_maps(cells, survey, low))),
+        section("Maps", maps(_maps(cells, survey, low)), _of_pieces(cells)),
         _files(found, survey),
     ]
     return page("Quality of the survey", parts, _STYLE)
@@ -91,6 +91,13 @@ def _maps(cells: QualityCells, survey: Survey, low: LowConfidence | None) -> Ite
         shown = np.where(reduced(low.low[::-1].astype(float), step, True) > 0, 1, 0)
         picture = Picture(_painted(shown, _LOW), low.cell * step)
         yield map_of(picture, "Low confidence areas", keys(_LOW, ("none", "low confidence")), units)
+
+
+def _of_pieces(cells: QualityCells) -> Html:
+    """Return a note on the maps of a survey in pieces."""
+    count = len(cells.grids.coarse.pieces)
+    words = f"The survey lies in {count} pieces far apart. The maps show them above each other."
+    return paragraph(words if count > 1 else "")
 
 
 def _painted(classes: np.ndarray, colours: Sequence[str]) -> np.ndarray:

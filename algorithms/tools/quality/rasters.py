@@ -14,12 +14,14 @@ from ...core.progress import Progress
 from ...grids.cells import are_inside
 from ...grids.parts import parts_with
 from ...rasters import looks
-from ...rasters.geotiff import NODATA, RasterGrid
+from ...rasters.cell_grid import MOST_WITH_EMPTY
+from ...rasters.geotiff import NODATA, RasterGrid, check_cells
 from ...rasters.looks import Categories, Look, Ramp, Steps
-from ...rasters.sparse import Part
+from ...rasters.sparse import SIDE, Part
 from ...rasters.writing import RasterCells, write_geotiff
 from ...report.pictures import HEIGHTS
-from .cells import STRIPS, Grid, Make, QualityCells, Rectangle
+from .cells import STRIPS, Make, QualityCells, Rectangle
+from .grids import Grid
 from .planes import moments, plane_of
 
 # Limits of the classes of differences between strips, in metres.
@@ -36,6 +38,7 @@ _AROUND = 2  # cells to each side: 5 x 5
 # Cells whose surroundings are looked at together.
 _LOOKED_AT = 1 << 18
 _STEEPEST = 45.0
+_TOGETHER = 1 << 21  # cells that are written together
 _BLUES = tuple(colour for _, colour in looks.DENSITY)
 
 
@@ -210,12 +213,16 @@ def write_rasters(
     """Write rasters, given by their names."""
     for number, (name, path) in enumerate(paths.items(), start=1):
         raster = QUALITY_RASTERS[name]
-        window, metres = raster.grid(cells)
-        size = metres / frame.horizontal_unit
+        of_cells = raster.grid(cells)
+        window = of_cells.whole
+        check_cells(window.columns, window.rows, of_cells.size, lambda: 1.0, MOST_WITH_EMPTY)
+        size = of_cells.size / frame.horizontal_unit
         north = (window.row + window.rows) * size
         grid = RasterGrid(window.column * size, north, size, window.columns, window.rows, frame)
         nodata = _NO_BYTE if raster.kind == "uint8" else NODATA
-        made = RasterCells(window.shape, raster.kind, _parts_of(raster, cells, frame, nodata))
+        parts = _parts_of(raster, cells, frame, nodata)
+        filled = sum(math.prod(piece.window.shape) for piece in of_cells.pieces)
+        made = RasterCells(window.shape, raster.kind, parts, made=filled)
         write_geotiff(path, made, grid, nodata, progress, raster.shows)
         progress(number / len(paths))
 
@@ -223,13 +230,15 @@ def write_rasters(
 def _parts_of(
     raster: QualityRaster, cells: QualityCells, frame: Frame, nodata: float
 ) -> Iterator[Part]:
-    """Yield rows of a raster from north to south."""
+    """Yield parts of a raster from north to south."""
     unit = frame.vertical_unit if raster.is_height else 1.0
 
     def make(cells: QualityCells, there: Rectangle) -> np.ndarray:
         return raster.make(cells, there) / unit
 
-    for rows in reversed(raster.grid(cells).parts()):
-        values = cells.rows_of(make, rows, raster.is_coarse)
-        made = np.where(np.isnan(values), nodata, values).astype(raster.kind)[::-1]
-        yield Part(raster.grid(cells).window.rows - rows.stop, 0, made)
+    grid = raster.grid(cells)
+    band = max(_TOGETHER // grid.window.columns // SIDE, 1) * SIDE
+    for row, column, (rows, columns) in grid.bands(band):
+        values = cells.rows_of(make, rows, raster.is_coarse)[:, columns]
+        made = np.where(np.isnan(values), nodata, values).astype(raster.kind)
+        yield Part(row, column, made[::-1])

@@ -18,7 +18,14 @@ from ...core.words import option
 from ...engine.summary import RunSummary
 from ...grids.cell_window import CellWindow
 from ...grids.expected_error import ExpectedAccuracy
-from ...rasters.cell_grid import ANYWHERE, MOST_CELLS, CellGrid, RasterTarget, no_points
+from ...rasters.cell_grid import (
+    ANYWHERE,
+    MOST_CELLS,
+    MOST_WITH_EMPTY,
+    CellGrid,
+    RasterTarget,
+    no_points,
+)
 from ...rasters.geotiff import NO_GROUND, RasterGrid
 from ...rasters.virtual import folder_of, virtual_of, write_virtual
 from ...rasters.writing import Band, RasterCells, raster_file, write_geotiff
@@ -34,8 +41,6 @@ from .rows import RASTERS, How, Raster, RasterFiles
 # Metres from the area up to which cells are made as well, because the surroundings decide which
 # gaps lie inside the survey.
 AROUND_AREA = 1000.0
-# Most cells of rasters that are empty for the most part.
-_MOST_WITH_EMPTY = 10 * MOST_CELLS
 # Writes a raster, given what `write_geotiff` is given.
 WriteCells = Callable[[Path, RasterCells, RasterGrid, float, Progress, str], None]
 
@@ -233,7 +238,7 @@ def _windows(
         whole = whole.within(wanted.wider(math.ceil(AROUND_AREA / step.cell)))
     shared = (block.window.within(whole) for block in blocks)
     filled = sum(math.prod(part.shape) for part in shared if not part.is_empty)
-    if math.prod(whole.shape) > _MOST_WITH_EMPTY or filled > MOST_CELLS:
+    if math.prod(whole.shape) > MOST_WITH_EMPTY or filled > MOST_CELLS:
         raise BareEarthError(
             f"The rasters would have {whole.columns:,} x {whole.rows:,} cells of {step.cell:g} m."
             f" Choose a larger cell size, or give the extent of the rasters"
