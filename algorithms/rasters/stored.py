@@ -54,7 +54,7 @@ class Stored(NamedTuple):
                 found.append((first, last))
         return found
 
-    def count(self, cells: int, margin: int = 0) -> int | None:
+    def cells_of(self, cells: int, margin: int = 0) -> int | None:
         """Return the number of cells of all runs of all strips; None if all tiles are stored."""
         if self.held is None:
             return None

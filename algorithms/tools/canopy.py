@@ -99,7 +99,7 @@ def canopy_of_rasters(
     parts = _parts(heights, parameters.pit_free, found, progress.part(0.0, 0.9))
     row, cells = (
         RASTERS["chm"],
-        RasterCells(raster.whole, "float32", parts, made=raster.stored.count(_CELLS)),
+        RasterCells(raster.whole, "float32", parts, made=raster.stored.cells_of(_CELLS)),
     )
     write_geotiff(output, cells, raster, NODATA, progress.part(0.9, 1.0), row.shows)
     raster.tell(progress)

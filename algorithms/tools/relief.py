@@ -84,7 +84,7 @@ def draw_reliefs(
         nodata = row.nodata(no_data)
         how = How(raster.cell_metres, parameters.terrain)
         parts = _parts(raster, row, how, nodata, part)
-        made = raster.stored.count(_CELLS, row.margin(how))
+        made = raster.stored.cells_of(_CELLS, row.margin(how))
         cells = RasterCells(raster.whole, row.kind, parts, row.bands, made)
         with may_use(available_cpus()):
             write(path, cells, raster, nodata, part, row.shows)
