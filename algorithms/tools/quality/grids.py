@@ -1,117 +1,25 @@
-"""The grids of a survey, in which pieces that lie far apart take no more cells than they fill."""
+"""The grids in which the quality of a survey is measured."""
 
 from __future__ import annotations
 
-from typing import Iterator, NamedTuple, Sequence
-
-import numpy as np
+from typing import NamedTuple, Sequence
 
 from ...core.points import Box
 from ...grids.cell_window import CellWindow
-from ...grids.cells import are_inside
+from ...grids.piece_grid import PieceGrid
 
-# Cells of rows that are worked on together.
-_TOGETHER = 1 << 21
 # Side in metres of the squares that decide which area belongs to the survey.
 SQUARE = 10.0
 # Metres between pieces beyond the distance of voids, farther than other cells matter.
 _APART = 200.0
 
 
-class Piece(NamedTuple):
-    """A piece of a survey, whose cells are moved beside those of the others."""
-
-    window: CellWindow  # its cells, where they lie
-    up: int = 0  # cells by which they are moved to the north
-    right: int = 0  # and to the east
-
-    @property
-    def moved(self) -> CellWindow:
-        """The cells where they are counted."""
-        row, column = self.window.row + self.up, self.window.column + self.right
-        return self.window._replace(row=row, column=column)
-
-    def scaled(self, factor: int) -> Piece:
-        """Return the piece in smaller cells."""
-        window = CellWindow(*(factor * count for count in self.window))
-        return Piece(window, factor * self.up, factor * self.right)
-
-
-class Grid(NamedTuple):
-    """Square cells of a survey, counted from (0, 0) of the CRS."""
-
-    window: CellWindow
-    size: float  # metres
-    pieces: tuple[Piece, ...]  # at least one; the first is not moved
-
-    def places(self, x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Return number, row and column of the cells of points in metres."""
-        row, column = self.window.places(x, y, (0.0, 0.0), self.size)
-        if len(self.pieces) > 1:
-            left = np.ones(len(row), dtype=bool)
-            for window, up, right in self.pieces:
-                first = window.row - self.window.row, window.column - self.window.column
-                own = left & are_inside(row - first[0], column - first[1], window.shape)
-                left &= ~own
-                row[own] += up
-                column[own] += right
-        # The extent in a header may be slightly smaller than that of the points.
-        row = np.clip(row, 0, self.window.rows - 1)
-        column = np.clip(column, 0, self.window.columns - 1)
-        return row * self.window.columns + column, row, column
-
-    def from_centres(
-        self, x: np.ndarray, y: np.ndarray, row: np.ndarray, column: np.ndarray
-    ) -> tuple[np.ndarray, np.ndarray]:
-        """Return x and y of points from the centres of their cells, in metres."""
-        number = self.piece_at(row)
-        up, right = (np.array(moves)[number] for moves in zip(*(one[1:] for one in self.pieces)))
-        east, north = self.window.column + column + 0.5, self.window.row + row + 0.5
-        return x - (east - right) * self.size, y - (north - up) * self.size
-
-    def piece_at(self, row: np.ndarray | int) -> np.ndarray:
-        """Return the numbers of the pieces whose cells are in some rows, or in those above."""
-        starts = [piece.moved.row - self.window.row for piece in self.pieces]
-        return np.maximum(np.searchsorted(starts, row, side="right") - 1, 0)
-
-    def parts(self, multiple: int = 2) -> list[slice]:
-        """Return slices of rows that fit into memory, in multiples, from south to north."""
-        rows = self.window.rows
-        step = max(_TOGETHER // self.window.columns // multiple, 1) * multiple
-        return [slice(start, min(start + step, rows)) for start in range(0, rows, step)]
-
-    @property
-    def whole(self) -> CellWindow:
-        """The cells that hold all pieces where they lie."""
-        ends = [
-            (one.row, one.column, one.row + one.rows, one.column + one.columns)
-            for one, *_ in self.pieces
-        ]
-        south, west = np.min(ends, axis=0)[:2].tolist()
-        north, east = np.max(ends, axis=0)[2:].tolist()
-        return CellWindow(south, west, north - south, east - west)
-
-    def bands(self, rows: int) -> Iterator[tuple[int, int, tuple[slice, slice]]]:
-        """Yield parts of pieces, of up to so many rows of the whole, from north to south: the first
-        row from north and the first column in the whole, and the cells where they are counted.
-        """
-        whole = self.whole
-        for start in range(0, whole.rows, rows):
-            band = whole.part(start, min(start + rows, whole.rows), 0, whole.columns)
-            for piece in self.pieces:
-                part = piece.window.within(band)
-                if not part.is_empty:
-                    moved = part._replace(row=part.row + piece.up, column=part.column + piece.right)
-                    north = whole.row + whole.rows - part.row - part.rows
-                    yield north, part.column - whole.column, self.window.slices(moved)
-
-
 class Grids(NamedTuple):
     """The grids of a survey."""
 
-    fine: Grid  # with cells of the size that was chosen
-    coarse: Grid  # with cells of twice that size
-    spaced: Grid  # with cells in which first returns are looked for
+    fine: PieceGrid  # with cells of the size that was chosen
+    coarse: PieceGrid  # with cells of twice that size
+    spaced: PieceGrid  # with cells in which first returns are looked for
 
     @classmethod
     def over(cls, boxes: Sequence[Box], size: float, spacing: float, void: float) -> Grids:
@@ -121,24 +29,10 @@ class Grids(NamedTuple):
         coarse = _beside(boxes, 2 * size, void, max(round(SQUARE / (2 * size)), 1))
         fine = tuple(piece.scaled(2) for piece in coarse.pieces)
         window = CellWindow(*(2 * count for count in coarse.window))
-        return cls(Grid(window, size, fine), coarse, _beside(boxes, spacing, void, 1))
+        return cls(PieceGrid(window, size, fine), coarse, _beside(boxes, spacing, void, 1))
 
 
-def _beside(boxes: Sequence[Box], size: float, void: float, multiple: int) -> Grid:
-    """Return the grid of pieces, which are moved to the north of each other by multiples of some
-    cells.
-    """
+def _beside(boxes: Sequence[Box], size: float, void: float, multiple: int) -> PieceGrid:
+    """Return the grid of pieces, so far apart that none matters for another one."""
     windows = [CellWindow.around(box, size) for box in boxes]
-    if len(windows) > 1:
-        # Points can lie slightly beyond a rounded extent.
-        windows = [window.wider(multiple) for window in windows]
-    first = windows[0]
-    pieces, north, east = [Piece(first)], first.row + first.rows, first.column + first.columns
-    for window in windows[1:]:
-        start = north + int((void + _APART) / size)
-        start += (window.row - start) % multiple
-        column = first.column + (window.column - first.column) % multiple
-        pieces.append(Piece(window, start - window.row, column - window.column))
-        north, east = start + window.rows, max(east, column + window.columns)
-    window = CellWindow(first.row, first.column, north - first.row, east - first.column)
-    return Grid(window, size, tuple(pieces))
+    return PieceGrid.of(windows, size, int((void + _APART) / size), multiple)

@@ -13,6 +13,7 @@ from ...core.points import Frame
 from ...core.progress import Progress
 from ...grids.cells import are_inside
 from ...grids.parts import parts_with
+from ...grids.piece_grid import PieceGrid
 from ...rasters import looks
 from ...rasters.cell_grid import MOST_WITH_EMPTY
 from ...rasters.geotiff import NODATA, RasterGrid, check_cells
@@ -21,7 +22,6 @@ from ...rasters.sparse import SIDE, Part
 from ...rasters.writing import RasterCells, write_geotiff
 from ...report.pictures import HEIGHTS
 from .cells import STRIPS, Make, QualityCells, Rectangle
-from .grids import Grid
 from .planes import moments, plane_of
 
 # Limits of the classes of differences between strips, in metres.
@@ -60,7 +60,7 @@ class QualityRaster(NamedTuple):
     words: tuple[str, ...] = ()
     shows_greatest: bool = False  # where the map has larger cells; otherwise it shows their mean
 
-    def grid(self, cells: QualityCells) -> Grid:
+    def grid(self, cells: QualityCells) -> PieceGrid:
         """Return the cells of the raster."""
         return cells.grids.coarse if self.is_coarse else cells.grids.fine
 

@@ -8,13 +8,16 @@ from pathlib import Path
 import numpy as np
 
 from ...classes.kept_classes import GROUND
-from ...core.points import box_round
+from ...core.points import Box, Frame, box_round
 from ...core.progress import SILENT, Progress
+from ...grids.cell_window import CellWindow
+from ...grids.piece_grid import PieceGrid
 from ...las.cloud import PointCloud, survey_frame
 from ...las.reading import read_parts
 from ...rasters.geotiff import RasterGrid
-from ...rasters.writing import write_geotiff
-from ...survey.files import Inputs, Survey, open_survey
+from ...rasters.sparse import Part
+from ...rasters.writing import RasterCells, write_geotiff
+from ...survey.files import Inputs, open_survey
 
 NO_CLASS = 255
 # More cells are not needed to look at.
@@ -69,31 +72,54 @@ def write_class_raster(
     # would be too many cells. `crs` is as for `open_las`.
     survey = open_survey(Inputs([source]).read_as(crs))
     cell_size *= survey.crs.horizontal_unit if in_units else 1.0
-    grid = _grid_of(survey, cell_size)
-    cells = ClassCells(grid.rows * grid.columns, ground_class)
+    frame = survey_frame(survey.crs)
+    extent = box_round(np.array([tile.box for tile in survey.tiles]))
+    boxes = [_shared(piece.box, extent) for piece in survey.pieces]
+    area = sum((east - west) * (north - south) for west, south, east, north in boxes)
+    least = math.sqrt(area * frame.horizontal_unit**2 / _MOST_CELLS)
+    cell = max(cell_size, least) / frame.horizontal_unit
+    grid = PieceGrid.of([_window_of(box, cell) for box in boxes], cell)
+    cells = ClassCells(math.prod(grid.window.shape), ground_class)
     parts = progress.part(0.0, 0.9).shares(*(max(tile.count, 1) for tile in survey.tiles))
     for tile, part in zip(survey.tiles, parts):
         for points in read_parts(tile, part):
             cells.add(_cells_of(points, grid), points.classification)
-    values = cells.values().reshape(grid.rows, grid.columns)
-    write_geotiff(target, values, grid, NO_CLASS, progress, "Class")
+    values = cells.values().reshape(grid.window.shape)
+    _write(target, values, grid, frame, progress)
     return [int(number) for number in np.unique(values) if number != NO_CLASS]
 
 
-def _grid_of(survey: Survey, cell_size: float) -> RasterGrid:
-    frame = survey_frame(survey.crs)
-    west, south, east, north = box_round(np.array([tile.box for tile in survey.tiles]))
-    area = (east - west) * (north - south) * frame.horizontal_unit**2
-    cell = max(cell_size, math.sqrt(area / _MOST_CELLS)) / frame.horizontal_unit
-    left, top = math.floor(west / cell), math.ceil(north / cell)
-    columns, rows = math.floor(east / cell) - left + 1, top - math.ceil(south / cell) + 1
-    return RasterGrid(left * cell, top * cell, cell, columns, rows, frame)
+def _shared(box: Box, other: Box) -> Box:
+    """Return what two boxes share."""
+    (west, south), (east, north) = map(max, box[:2], other[:2]), map(min, box[2:], other[2:])
+    return west, south, east, north
 
 
-def _cells_of(part: PointCloud, grid: RasterGrid) -> np.ndarray:
+def _window_of(box: Box, cell: float) -> CellWindow:
+    """Return the cells of a piece; points on its southern and eastern border have cells, too."""
+    west, south, east, north = (side / cell for side in box)
+    row, column = math.ceil(south) - 1, math.floor(west)
+    return CellWindow(row, column, math.ceil(north) - row, math.floor(east) - column + 1)
+
+
+def _cells_of(part: PointCloud, grid: PieceGrid) -> np.ndarray:
     x, y = part.coordinates()
-    column = np.floor((x - grid.west) / grid.cell_size).astype(np.int64)
-    row = np.floor((grid.north - y) / grid.cell_size).astype(np.int64)
-    # The extent in the header may be slightly smaller than that of the points.
-    column, row = np.clip(column, 0, grid.columns - 1), np.clip(row, 0, grid.rows - 1)
-    return row * grid.columns + column
+    column = np.floor(x / grid.size).astype(np.int64) - grid.window.column
+    row = np.ceil(y / grid.size).astype(np.int64) - 1 - grid.window.row
+    return grid.moved(row, column)[0]
+
+
+def _write(
+    target: Path, values: np.ndarray, grid: PieceGrid, frame: Frame, progress: Progress
+) -> None:
+    """Write classes, rows from the south, where their cells lie."""
+    whole = grid.whole
+    north = (whole.row + whole.rows) * grid.size
+    where = RasterGrid(whole.column * grid.size, north, grid.size, whole.columns, whole.rows, frame)
+    parts = (
+        Part(row, column, values[there][::-1])
+        for row, column, there in grid.bands(max(whole.rows, 1))
+    )
+    made = sum(math.prod(piece.window.shape) for piece in grid.pieces)
+    cells = RasterCells(whole.shape, "uint8", parts, made=made)
+    write_geotiff(target, cells, where, NO_CLASS, progress, "Class")
