@@ -13,8 +13,9 @@ from surveys import heights_of, write_points
 import bare_earth
 from bare_earth import BareEarthError, Cancelled
 from bare_earth.algorithms.cli import main
+from bare_earth.algorithms.grids import piece_grid
 from bare_earth.algorithms.las.reading import read_parts
-from bare_earth.algorithms.tools.quality import cells
+from bare_earth.algorithms.tools.quality import cells, measuring
 
 pyproj = pytest.importorskip("pyproj")
 EAST, NORTH, SIZE = 500_000.0, 5_600_000.0, 100.0
@@ -506,7 +507,8 @@ def test_pieces_and_cells_on_disk_change_nothing(one_and_many, tmp_path, monkeyp
     measured(one, folder=tmp_path / "whole")
     monkeypatch.setattr(cells, "_TILE", 22)
     monkeypatch.setattr(cells, "_MOST_IN_MEMORY", 100)
-    monkeypatch.setattr(cells, "_TOGETHER", 1_000)
+    for module in (piece_grid, measuring):
+        monkeypatch.setattr(module, "_TOGETHER", 1_000)
     measured(one, folder=tmp_path / "pieces")
     same_rasters(tmp_path / "whole", tmp_path / "pieces", 1e-6)
 
