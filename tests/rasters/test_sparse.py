@@ -13,6 +13,7 @@ from bare_earth.algorithms.rasters import content, geotiff, writing
 from bare_earth.algorithms.rasters.geotiff import RasterGrid
 from bare_earth.algorithms.rasters.sparse import Part
 from bare_earth.algorithms.rasters.writing import RasterCells, write_geotiff
+from bare_earth.algorithms.tools.rasters.class_raster import write_class_raster
 
 rasterio = pytest.importorskip("rasterio")
 
@@ -42,14 +43,20 @@ def pieces(tmp_path_factory):
     paths = [
         _piece(folder / "a.laz"), _piece(folder / "b.laz", FAR, 0.4 * FAR, 1)
     ]  # fmt: skip
-    names = {"dtm": "dtm.tif", "hillshade": "hillshade.tif", "dsm": "dsm.tif", "vat": "vat.tif"}
+    names = {
+        "dtm": "dtm.tif",
+        "hillshade": "hillshade.tif",
+        "dsm": "dsm.tif",
+        "vat": "vat.tif",
+        "expected_error": "expected_error.tif",
+    }
     for key, sources in (("both", paths), ("a", paths[0]), ("b", paths[1])):
         (folder / key).mkdir()
         bare_earth.terrain(sources, **{name: folder / key / file for name, file in names.items()})
     return folder
 
 
-@pytest.mark.parametrize("name", ["dtm", "dsm", "hillshade", "vat"])
+@pytest.mark.parametrize("name", ["dtm", "dsm", "hillshade", "vat", "expected_error"])
 def test_two_pieces_far_apart_have_the_cells_of_each(pieces, name):
     both = pieces / "both" / f"{name}.tif"
     for key, east, north in (("a", 0.0, 0.0), ("b", FAR, 0.4 * FAR)):
@@ -108,6 +115,24 @@ def test_contour_lines_of_a_raster_with_empty_land_are_those_of_the_pieces(piece
 
     both, a, b = _of_pieces(pieces, make)
     assert sorted(both) == sorted(a + b) and len(a) > 10
+
+
+def test_classes_of_pieces_have_cells_as_small_as_those_of_one(tmp_path):
+    x, y = np.random.default_rng(0).uniform(0.0, SIDE, (2, 3000))
+    x[0], y[0] = 29_999.5, 23_999.5
+    metres = np.column_stack((x, y, np.full(3000, 100.0)))
+    classes = np.where(x < 20.0, 2, 5)
+    path = write(tmp_path / "a.laz", np.round(metres * 100).astype(np.int64), classes=classes)
+    assert write_class_raster(path, tmp_path / "a.tif") == [2, 5]
+    with rasterio.open(tmp_path / "a.tif") as raster:
+        assert raster.res == (1.0, 1.0) and raster.read(
+            1,
+            window=raster.window(
+                ORIGIN[0] + 29_999, ORIGIN[1] + 23_999, ORIGIN[0] + 30_000, ORIGIN[1] + 24_000
+            ),
+        ).ravel().tolist() == [5]
+    cells = _read(tmp_path / "a.tif", 0.0, 0.0)
+    assert (cells[:, :19] == 2).mean() > 0.8 and (cells[:, 20:] == 5).mean() > 0.8
 
 
 def test_the_quality_of_pieces_is_that_of_each(pieces):
