@@ -109,9 +109,9 @@ def _band(line: Line, place: _Place) -> str:
 
 
 def _dots(some: Dots, place: _Place) -> str:
-    """Return points, those at the same spot once, as strokes without length with round ends."""
+    """Return points, those at the same spot once, as short strokes with round ends."""
     spots = np.rint(np.column_stack(place(some.along, some.heights))).astype(np.int64)
-    path = "".join(f"M{x} {y}h0" for x, y in np.unique(spots, axis=0).tolist())
+    path = "".join(f"M{x} {y}h.1" for x, y in np.unique(spots, axis=0).tolist())
     return (
         f'<path d="{path}" stroke="{some.colour}" stroke-width="3" stroke-linecap="round"'
         ' fill="none"/>'
