@@ -4,6 +4,10 @@
 <context>
     <name>BareEarth</name>
     <message>
+        <source>"{}" can't be written: the answer is not saved. Export it as GeoPackage.</source>
+        <translation>„{}“ lässt sich nicht schreiben: Die Antwort ist nicht gespeichert. Exportieren Sie den Layer als GeoPackage.</translation>
+    </message>
+    <message>
         <source>0 to 1</source>
         <translation>0 bis 1</translation>
     </message>
@@ -52,8 +56,16 @@
         <translation>Alles in einem</translation>
     </message>
     <message>
+        <source>All places are answered or skipped.</source>
+        <translation>Alle Stellen sind beantwortet oder übersprungen.</translation>
+    </message>
+    <message>
         <source>All returns</source>
         <translation>Alle Echos</translation>
+    </message>
+    <message>
+        <source>Another file…</source>
+        <translation>Andere Datei …</translation>
     </message>
     <message>
         <source>Archaeological topography</source>
@@ -70,6 +82,10 @@
     <message>
         <source>Area [m²]</source>
         <translation>Fläche [m²]</translation>
+    </message>
+    <message>
+        <source>As ground, this place would rise by up to {} m; its expected error is {} m. Press G again if that is right.</source>
+        <translation>Als Boden würde diese Stelle um bis zu {} m höher; ihr erwarteter Fehler ist {} m. Drücken Sie noch einmal G, wenn das stimmt.</translation>
     </message>
     <message>
         <source>As the CRS states</source>
@@ -102,6 +118,14 @@
     <message>
         <source>Bare Earth: LAZ support</source>
         <translation>Bare Earth: LAZ-Unterstützung</translation>
+    </message>
+    <message>
+        <source>Bare Earth: Review</source>
+        <translation>Bare Earth: Durchsicht</translation>
+    </message>
+    <message>
+        <source>Bare Earth: points of the places to review</source>
+        <translation>Bare Earth: Punkte der zu prüfenden Stellen</translation>
     </message>
     <message>
         <source>Bathymetric bottom</source>
@@ -144,6 +168,10 @@
         <translation>Kronenhöhe (nDOM)</translation>
     </message>
     <message>
+        <source>Canopy height from two rasters</source>
+        <translation>Kronenhöhe aus zwei Rastern</translation>
+    </message>
+    <message>
         <source>Cause</source>
         <translation>Ursache</translation>
     </message>
@@ -184,6 +212,10 @@
         <translation>Sicher</translation>
     </message>
     <message>
+        <source>Changes nothing, and is left out next time.</source>
+        <translation>Ändert nichts und kommt nicht wieder.</translation>
+    </message>
+    <message>
         <source>Check against checkpoints</source>
         <translation>Mit Kontrollpunkten vergleichen</translation>
     </message>
@@ -218,6 +250,10 @@
     <message>
         <source>Choose point clouds, or a folder of them.</source>
         <translation>Wählen Sie Punktwolken oder einen Ordner mit Punktwolken.</translation>
+    </message>
+    <message>
+        <source>Choose the classified points above to see them here.</source>
+        <translation>Wählen Sie oben die klassifizierten Punkte, um sie hier zu sehen.</translation>
     </message>
     <message>
         <source>City, large halls</source>
@@ -280,6 +316,10 @@
         <translation>Klassifizierte Punktwolke</translation>
     </message>
     <message>
+        <source>Classified points</source>
+        <translation>Klassifizierte Punkte</translation>
+    </message>
+    <message>
         <source>Classified points only</source>
         <translation>Nur klassifizierte Punkte</translation>
     </message>
@@ -322,6 +362,14 @@
     <message>
         <source>Classify water</source>
         <translation>Gewässer klassifizieren</translation>
+    </message>
+    <message>
+        <source>Clip point clouds</source>
+        <translation>Punktwolken zuschneiden</translation>
+    </message>
+    <message>
+        <source>Clipped point cloud</source>
+        <translation>Zugeschnittene Punktwolke</translation>
     </message>
     <message>
         <source>Compare settings on a window</source>
@@ -368,6 +416,10 @@
         <translation>Höhenlinien</translation>
     </message>
     <message>
+        <source>Correct and run again</source>
+        <translation>Korrigieren und neu rechnen</translation>
+    </message>
+    <message>
         <source>Corrections</source>
         <translation>Korrekturen</translation>
     </message>
@@ -394,6 +446,10 @@
     <message>
         <source>Density of low vegetation</source>
         <translation>Dichte der niedrigen Vegetation</translation>
+    </message>
+    <message>
+        <source>Depression</source>
+        <translation>Senke</translation>
     </message>
     <message>
         <source>Depth of low outliers</source>
@@ -444,6 +500,10 @@
         <translation>Lädt die Punkte einer entfernten Punktwolke herunter, die in einem Gebiet liegen.</translation>
     </message>
     <message>
+        <source>Draws contour lines of an elevation raster.</source>
+        <translation>Zeichnet Höhenlinien eines Höhenrasters.</translation>
+    </message>
+    <message>
         <source>Drone site</source>
         <translation>Gelände aus Drohnenflug</translation>
     </message>
@@ -486,6 +546,10 @@
     <message>
         <source>Expected error (95 %)</source>
         <translation>Erwarteter Fehler (95 %)</translation>
+    </message>
+    <message>
+        <source>Expected error up to {} m on {} m²</source>
+        <translation>Erwarteter Fehler bis {} m auf {} m²</translation>
     </message>
     <message>
         <source>Extent</source>
@@ -636,6 +700,10 @@
         <translation>Aus einer Wheel-Datei…</translation>
     </message>
     <message>
+        <source>From the delivery</source>
+        <translation>Wie die Lieferung</translation>
+    </message>
+    <message>
         <source>GB</source>
         <translation>GB</translation>
     </message>
@@ -654,6 +722,10 @@
     <message>
         <source>Gives class 9 to ground points in water, and class 20 to those beside its shore.</source>
         <translation>Gibt Bodenpunkten im Wasser die Klasse 9 und denen neben dem Ufer die Klasse 20.</translation>
+    </message>
+    <message>
+        <source>Greatest height</source>
+        <translation>Größte Höhe</translation>
     </message>
     <message>
         <source>Grid minimum</source>
@@ -698,6 +770,10 @@
     <message>
         <source>Ground</source>
         <translation>Boden</translation>
+    </message>
+    <message>
+        <source>Ground (G)</source>
+        <translation>Boden (G)</translation>
     </message>
     <message>
         <source>Ground and height above ground</source>
@@ -832,6 +908,14 @@
         <translation>Ignorierter Boden neben dem Ufer</translation>
     </message>
     <message>
+        <source>In the next run, no point here is ground.</source>
+        <translation>Beim nächsten Lauf ist hier kein Punkt Boden.</translation>
+    </message>
+    <message>
+        <source>In the next run, the ground around is continued through the place.</source>
+        <translation>Beim nächsten Lauf wird der Boden ringsum durch die Stelle fortgesetzt.</translation>
+    </message>
+    <message>
         <source>Include subfolders</source>
         <translation>Unterordner einbeziehen</translation>
     </message>
@@ -850,6 +934,10 @@
     <message>
         <source>Kappa [%]</source>
         <translation>Kappa [%]</translation>
+    </message>
+    <message>
+        <source>Keep small knolls and pits</source>
+        <translation>Kleine Kuppen und Mulden behalten</translation>
     </message>
     <message>
         <source>Keep; old ground that is not ground now becomes 1</source>
@@ -996,6 +1084,10 @@
         <translation>Macht Geländemodell, Oberflächenmodell, Kronenhöhe und Schummerung aus einer Punktwolke.</translation>
     </message>
     <message>
+        <source>Makes the canopy height of a surface model and a terrain model, two rasters.</source>
+        <translation>Berechnet die Kronenhöhe aus einem Oberflächen- und einem Geländemodell, zwei Rastern.</translation>
+    </message>
+    <message>
         <source>Mark key points by</source>
         <translation>Schlüsselpunkte kennzeichnen durch</translation>
     </message>
@@ -1080,6 +1172,14 @@
         <translation>Negative Offenheit</translation>
     </message>
     <message>
+        <source>Next</source>
+        <translation>Weiter</translation>
+    </message>
+    <message>
+        <source>No</source>
+        <translation>Nein</translation>
+    </message>
+    <message>
         <source>No Python interpreter was found beside this QGIS, so pip cannot be run: choose a wheel file instead.</source>
         <translation>Neben diesem QGIS wurde kein Python-Interpreter gefunden, pip lässt sich also nicht ausführen: Wählen Sie stattdessen eine Wheel-Datei.</translation>
     </message>
@@ -1090,6 +1190,10 @@
     <message>
         <source>No ground near</source>
         <translation>Kein Boden in der Nähe</translation>
+    </message>
+    <message>
+        <source>No places to review</source>
+        <translation>Keine Stellen zu prüfen</translation>
     </message>
     <message>
         <source>No specification</source>
@@ -1118,6 +1222,10 @@
     <message>
         <source>Not ground</source>
         <translation>Kein Boden</translation>
+    </message>
+    <message>
+        <source>Not ground (N)</source>
+        <translation>Kein Boden (N)</translation>
     </message>
     <message>
         <source>Not ground, except with a classic preset</source>
@@ -1192,6 +1300,14 @@
         <translation>Flussabschnitte</translation>
     </message>
     <message>
+        <source>Place {}</source>
+        <translation>Stelle {}</translation>
+    </message>
+    <message>
+        <source>Place {} of {}</source>
+        <translation>Stelle {} von {}</translation>
+    </message>
+    <message>
         <source>Places</source>
         <translation>Stellen</translation>
     </message>
@@ -1206,6 +1322,10 @@
     <message>
         <source>Point cloud to terrain</source>
         <translation>Von der Punktwolke zum Gelände</translation>
+    </message>
+    <message>
+        <source>Point cloud to terrain…</source>
+        <translation>Punktwolke zu Gelände …</translation>
     </message>
     <message>
         <source>Point cloud with all classes</source>
@@ -1228,12 +1348,20 @@
         <translation>Punktwolken</translation>
     </message>
     <message>
+        <source>Point clouds (*.las *.laz *.vpc)</source>
+        <translation>Punktwolken (*.las *.laz *.vpc)</translation>
+    </message>
+    <message>
         <source>Points</source>
         <translation>Punkte</translation>
     </message>
     <message>
         <source>Points 0.2 to 2 m above the ground</source>
         <translation>Punkte 0,2 bis 2 m über dem Boden</translation>
+    </message>
+    <message>
+        <source>Points are being read: it is not known yet how far this place would rise as ground. Press G again to answer without that.</source>
+        <translation>Die Punkte werden gelesen: Noch ist nicht bekannt, wie weit diese Stelle als Boden höher würde. Drücken Sie noch einmal G, um ohne das zu antworten.</translation>
     </message>
     <message>
         <source>Points in the area</source>
@@ -1270,6 +1398,10 @@
     <message>
         <source>Preset</source>
         <translation>Voreinstellung</translation>
+    </message>
+    <message>
+        <source>Previous</source>
+        <translation>Zurück</translation>
     </message>
     <message>
         <source>Products</source>
@@ -1312,8 +1444,12 @@
         <translation>Raster, dessen Gitter gilt</translation>
     </message>
     <message>
-        <source>Ready. Compressed point clouds (.laz) need one more package, which is installed only once.</source>
-        <translation>Bereit. Komprimierte Punktwolken (.laz) brauchen noch ein Paket, das nur einmal installiert wird.</translation>
+        <source>Reading the points…</source>
+        <translation>Die Punkte werden gelesen …</translation>
+    </message>
+    <message>
+        <source>Ready. Point clouds in .laz need one more package.</source>
+        <translation>Bereit. Für Punktwolken in .laz fehlt noch ein Paket.</translation>
     </message>
     <message>
         <source>Ready. The package lazrs is in {}</source>
@@ -1396,12 +1532,28 @@
         <translation>Echos des Oberflächenmodells</translation>
     </message>
     <message>
+        <source>Review</source>
+        <translation>Durchsicht</translation>
+    </message>
+    <message>
+        <source>Right as it is</source>
+        <translation>Richtig so</translation>
+    </message>
+    <message>
+        <source>Right as it is (R)</source>
+        <translation>Richtig so (R)</translation>
+    </message>
+    <message>
         <source>Rivers</source>
         <translation>Flüsse</translation>
     </message>
     <message>
         <source>Rule that decided each cell</source>
         <translation>Regel, die über jede Zelle entschied</translation>
+    </message>
+    <message>
+        <source>Run a tool with the expected error of the terrain, then Places to review; or choose a layer of places.</source>
+        <translation>Starten Sie ein Werkzeug mit dem erwarteten Fehler des Geländes, dann „Zu prüfende Stellen“; oder wählen Sie einen Layer mit Stellen.</translation>
     </message>
     <message>
         <source>Search radius</source>
@@ -1440,8 +1592,16 @@
         <translation>Zeigt Hügel, Mauern, Gräben und alte Wege: sichtbarer Himmel, Offenheit, lokales Relief, VAT.</translation>
     </message>
     <message>
+        <source>Skip (S)</source>
+        <translation>Überspringen (S)</translation>
+    </message>
+    <message>
         <source>Skip missing tiles</source>
         <translation>Fehlende Kacheln auslassen</translation>
+    </message>
+    <message>
+        <source>Skipped</source>
+        <translation>Übersprungen</translation>
     </message>
     <message>
         <source>Sky-view factor</source>
@@ -1604,6 +1764,10 @@
         <translation>Geländemodell (DGM)</translation>
     </message>
     <message>
+        <source>Terrain model of the run before</source>
+        <translation>Geländemodell des vorigen Laufs</translation>
+    </message>
+    <message>
         <source>Terrain with buildings</source>
         <translation>Gelände mit Gebäuden</translation>
     </message>
@@ -1664,6 +1828,10 @@
         <translation>Werte der Veröffentlichung</translation>
     </message>
     <message>
+        <source>The place stays for another time.</source>
+        <translation>Die Stelle bleibt für ein anderes Mal.</translation>
+    </message>
+    <message>
         <source>The raster with the grid to use is not a file. Export it as GeoTIFF first.</source>
         <translation>Das Raster, dessen Gitter gilt, ist keine Datei. Exportieren Sie es zuerst als GeoTIFF.</translation>
     </message>
@@ -1674,6 +1842,14 @@
     <message>
         <source>The same without QGIS:</source>
         <translation>Dasselbe ohne QGIS:</translation>
+    </message>
+    <message>
+        <source>The terrain changed on {} m², by {} m on average and {} at most.</source>
+        <translation>Das Gelände hat sich auf {} m² geändert, im Mittel um {} m, höchstens um {}.</translation>
+    </message>
+    <message>
+        <source>The terrain has not changed.</source>
+        <translation>Das Gelände hat sich nicht geändert.</translation>
     </message>
     <message>
         <source>The terrain model is not a file. Export it as GeoTIFF first.</source>
@@ -1702,6 +1878,10 @@
     <message>
         <source>Tiles kept</source>
         <translation>Behaltene Kacheln</translation>
+    </message>
+    <message>
+        <source>To review</source>
+        <translation>Zu prüfen</translation>
     </message>
     <message>
         <source>Tolerance above</source>
@@ -1750,6 +1930,10 @@
     <message>
         <source>USGS Lidar Base Specification, QL2</source>
         <translation>USGS Lidar Base Specification, QL2</translation>
+    </message>
+    <message>
+        <source>Undo</source>
+        <translation>Rückgängig</translation>
     </message>
     <message>
         <source>Unit of the cell size</source>
@@ -1808,6 +1992,14 @@
         <translation>Wasseroberfläche</translation>
     </message>
     <message>
+        <source>What changed is not known: one of the two runs has no terrain model.</source>
+        <translation>Was sich geändert hat, ist nicht bekannt: Einer der beiden Läufe hat kein Geländemodell.</translation>
+    </message>
+    <message>
+        <source>What changed is not known: the new terrain model has other cells.</source>
+        <translation>Was sich geändert hat, ist nicht bekannt: Das neue Geländemodell hat andere Zellen.</translation>
+    </message>
+    <message>
         <source>Wheel file of lazrs</source>
         <translation>Wheel-Datei von lazrs</translation>
     </message>
@@ -1848,6 +2040,14 @@
         <translation>Höhen schreiben als</translation>
     </message>
     <message>
+        <source>Writes the points of an area as they are, and nothing else.</source>
+        <translation>Schreibt die Punkte eines Gebiets unverändert, und sonst nichts.</translation>
+    </message>
+    <message>
+        <source>Yes</source>
+        <translation>Ja</translation>
+    </message>
+    <message>
         <source>Z, in place of the elevation</source>
         <translation>Z, an Stelle der Höhe</translation>
     </message>
@@ -1864,6 +2064,10 @@
         <translation>Gebäude,Dächer,Bäume,Klassen,Klassifikation,Brücken,Rauschen,lasclassify,asprs,ign</translation>
     </message>
     <message>
+        <source>canopy</source>
+        <translation>Kronenhöhe</translation>
+    </message>
+    <message>
         <source>checkpoints,check points,control points,gcp,accuracy,quality,rmse,rmsez,vertical accuracy,nva,vva,asprs,validation,lascontrol,hold-out</source>
         <translation>kontrollpunkte,passpunkte,prüfpunkte,gcp,genauigkeit,qualität,rmse,rmsez,höhengenauigkeit,nva,vva,asprs,validierung,lascontrol</translation>
     </message>
@@ -1874,6 +2078,18 @@
     <message>
         <source>classified files</source>
         <translation>klassifizierte Dateien</translation>
+    </message>
+    <message>
+        <source>clip,crop,cut,extent,boundary,polygon,subset,las2las,pdal crop</source>
+        <translation>zuschneiden,ausschneiden,clip,Ausdehnung,Grenze,Polygon,Teil,las2las,pdal crop</translation>
+    </message>
+    <message>
+        <source>contours</source>
+        <translation>Höhenlinien</translation>
+    </message>
+    <message>
+        <source>contours,isolines,contour map,depression,knoll,dxf,cad,ocad</source>
+        <translation>Höhenlinien,Isolinien,Höhenlinienkarte,Senke,Kuppe,dxf,cad,ocad</translation>
     </message>
     <message>
         <source>contours,workflow</source>
@@ -1898,6 +2114,10 @@
     <message>
         <source>download,remote,url,web,http,clip,cloud storage,reproject,utm</source>
         <translation>herunterladen,entfernt,url,web,http,ausschneiden,cloud-speicher,umprojizieren,utm</translation>
+    </message>
+    <message>
+        <source>dsm,dtm,canopy height model,difference,subtract,raster calculator</source>
+        <translation>dom,dgm,ndom,Kronenhöhenmodell,Differenz,Rasterrechner</translation>
     </message>
     <message>
         <source>finer cells off surface</source>
@@ -1930,6 +2150,10 @@
     <message>
         <source>height,extra bytes</source>
         <translation>Höhe,Zusatzdimension</translation>
+    </message>
+    <message>
+        <source>heights times {}</source>
+        <translation>Höhen mal {}</translation>
     </message>
     <message>
         <source>key points</source>
@@ -1984,12 +2208,12 @@
         <translation>m oder ft</translation>
     </message>
     <message>
-        <source>m2</source>
-        <translation>m2</translation>
-    </message>
-    <message>
         <source>narrow pits</source>
         <translation>schmale Gruben</translation>
+    </message>
+    <message>
+        <source>no change</source>
+        <translation>keine Änderung</translation>
     </message>
     <message>
         <source>no key point</source>
@@ -2014,6 +2238,10 @@
     <message>
         <source>pits in blocks</source>
         <translation>Gruben in Blöcken</translation>
+    </message>
+    <message>
+        <source>place</source>
+        <translation>Stelle</translation>
     </message>
     <message>
         <source>places to review</source>
@@ -2104,6 +2332,10 @@
         <translation>Gelände und Oberfläche</translation>
     </message>
     <message>
+        <source>terrain from {} to {}</source>
+        <translation>Gelände von {} bis {}</translation>
+    </message>
+    <message>
         <source>terrain,terrain model,elevation model,dtm,dem,dsm,hillshade,relief</source>
         <translation>Gelände,Geländemodell,Höhenmodell,dgm,dhm,dom,dtm,dem,dsm,Schummerung,Relief</translation>
     </message>
@@ -2134,6 +2366,10 @@
     <message>
         <source>vpc,tiles,batch,survey,folder,many files</source>
         <translation>vpc,Kacheln,Stapel,Befliegung,Ordner,viele Dateien</translation>
+    </message>
+    <message>
+        <source>where it may be</source>
+        <translation>wo es sein kann</translation>
     </message>
     <message>
         <source>wide low groups</source>
@@ -2216,12 +2452,28 @@
         <translation>{} ist kein Wheel: Wählen Sie eine Datei mit der Endung .whl.</translation>
     </message>
     <message>
+        <source>{} is not on this computer. Choose a file.</source>
+        <translation>{} liegt nicht auf diesem Rechner. Wählen Sie eine Datei.</translation>
+    </message>
+    <message>
         <source>{} is not on this computer: give the extent to download.</source>
         <translation>{} ist nicht auf diesem Rechner: Geben Sie die Ausdehnung an, die heruntergeladen werden soll.</translation>
     </message>
     <message>
         <source>{} lists {} point clouds that have points there, and this algorithm reads one. Choose 'Point cloud to terrain', or download them first.</source>
         <translation>{} nennt {} Punktwolken, die dort Punkte haben, und dieser Algorithmus liest nur eine. Wählen Sie „Von der Punktwolke zum Gelände“, oder laden Sie sie zuerst herunter.</translation>
+    </message>
+    <message>
+        <source>{} m² by {} m, at most {} m</source>
+        <translation>{} m² um {} m, höchstens {} m</translation>
+    </message>
+    <message>
+        <source>{} of {} answered</source>
+        <translation>{} von {} beantwortet</translation>
+    </message>
+    <message>
+        <source>{} points higher or lower</source>
+        <translation>{} Punkte höher oder tiefer</translation>
     </message>
     <message>
         <source>{} were removed from {}.</source>

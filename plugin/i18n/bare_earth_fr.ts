@@ -4,6 +4,10 @@
 <context>
     <name>BareEarth</name>
     <message>
+        <source>"{}" can't be written: the answer is not saved. Export it as GeoPackage.</source>
+        <translation>« {} » ne peut pas être écrite : la réponse n'est pas enregistrée. Exportez-la en GeoPackage.</translation>
+    </message>
+    <message>
         <source>0 to 1</source>
         <translation>0 à 1</translation>
     </message>
@@ -52,8 +56,16 @@
         <translation>Chaîne complète</translation>
     </message>
     <message>
+        <source>All places are answered or skipped.</source>
+        <translation>Tous les endroits ont une réponse ou ont été passés.</translation>
+    </message>
+    <message>
         <source>All returns</source>
         <translation>Tous les retours</translation>
+    </message>
+    <message>
+        <source>Another file…</source>
+        <translation>Autre fichier…</translation>
     </message>
     <message>
         <source>Archaeological topography</source>
@@ -70,6 +82,10 @@
     <message>
         <source>Area [m²]</source>
         <translation>Surface [m²]</translation>
+    </message>
+    <message>
+        <source>As ground, this place would rise by up to {} m; its expected error is {} m. Press G again if that is right.</source>
+        <translation>Classé en sol, cet endroit monterait de {} m au plus ; son erreur attendue est de {} m. Appuyez encore sur G si c'est juste.</translation>
     </message>
     <message>
         <source>As the CRS states</source>
@@ -102,6 +118,14 @@
     <message>
         <source>Bare Earth: LAZ support</source>
         <translation>Bare Earth : prise en charge LAZ</translation>
+    </message>
+    <message>
+        <source>Bare Earth: Review</source>
+        <translation>Bare Earth : vérification</translation>
+    </message>
+    <message>
+        <source>Bare Earth: points of the places to review</source>
+        <translation>Bare Earth : points des endroits à vérifier</translation>
     </message>
     <message>
         <source>Bathymetric bottom</source>
@@ -144,6 +168,10 @@
         <translation>Hauteur de canopée (MHC)</translation>
     </message>
     <message>
+        <source>Canopy height from two rasters</source>
+        <translation>Hauteur de canopée à partir de deux rasters</translation>
+    </message>
+    <message>
         <source>Cause</source>
         <translation>Cause</translation>
     </message>
@@ -184,6 +212,10 @@
         <translation>Certain</translation>
     </message>
     <message>
+        <source>Changes nothing, and is left out next time.</source>
+        <translation>Ne change rien et ne reviendra pas.</translation>
+    </message>
+    <message>
         <source>Check against checkpoints</source>
         <translation>Vérifier avec des points de contrôle</translation>
     </message>
@@ -218,6 +250,10 @@
     <message>
         <source>Choose point clouds, or a folder of them.</source>
         <translation>Choisissez des nuages de points, ou un dossier de nuages de points.</translation>
+    </message>
+    <message>
+        <source>Choose the classified points above to see them here.</source>
+        <translation>Choisissez ci-dessus les points classés pour les voir ici.</translation>
     </message>
     <message>
         <source>City, large halls</source>
@@ -280,6 +316,10 @@
         <translation>Nuage de points classé</translation>
     </message>
     <message>
+        <source>Classified points</source>
+        <translation>Points classés</translation>
+    </message>
+    <message>
         <source>Classified points only</source>
         <translation>Points classés seulement</translation>
     </message>
@@ -322,6 +362,14 @@
     <message>
         <source>Classify water</source>
         <translation>Classer l'eau</translation>
+    </message>
+    <message>
+        <source>Clip point clouds</source>
+        <translation>Découper des nuages de points</translation>
+    </message>
+    <message>
+        <source>Clipped point cloud</source>
+        <translation>Nuage de points découpé</translation>
     </message>
     <message>
         <source>Compare settings on a window</source>
@@ -368,6 +416,10 @@
         <translation>Courbes de niveau</translation>
     </message>
     <message>
+        <source>Correct and run again</source>
+        <translation>Corriger et relancer</translation>
+    </message>
+    <message>
         <source>Corrections</source>
         <translation>Corrections</translation>
     </message>
@@ -394,6 +446,10 @@
     <message>
         <source>Density of low vegetation</source>
         <translation>Densité de la végétation basse</translation>
+    </message>
+    <message>
+        <source>Depression</source>
+        <translation>Dépression</translation>
     </message>
     <message>
         <source>Depth of low outliers</source>
@@ -444,6 +500,10 @@
         <translation>Télécharge les points d’un nuage de points distant qui se trouvent dans une zone.</translation>
     </message>
     <message>
+        <source>Draws contour lines of an elevation raster.</source>
+        <translation>Trace les courbes de niveau d'un raster d'altitudes.</translation>
+    </message>
+    <message>
         <source>Drone site</source>
         <translation>Site relevé par drone</translation>
     </message>
@@ -486,6 +546,10 @@
     <message>
         <source>Expected error (95 %)</source>
         <translation>Erreur attendue (95 %)</translation>
+    </message>
+    <message>
+        <source>Expected error up to {} m on {} m²</source>
+        <translation>Erreur attendue jusqu'à {} m sur {} m²</translation>
     </message>
     <message>
         <source>Extent</source>
@@ -636,6 +700,10 @@
         <translation>Depuis un fichier wheel…</translation>
     </message>
     <message>
+        <source>From the delivery</source>
+        <translation>Selon la livraison</translation>
+    </message>
+    <message>
         <source>GB</source>
         <translation>Go</translation>
     </message>
@@ -654,6 +722,10 @@
     <message>
         <source>Gives class 9 to ground points in water, and class 20 to those beside its shore.</source>
         <translation>Donne la classe 9 aux points de sol dans l'eau, et la classe 20 à ceux qui longent la rive.</translation>
+    </message>
+    <message>
+        <source>Greatest height</source>
+        <translation>Hauteur maximale</translation>
     </message>
     <message>
         <source>Grid minimum</source>
@@ -698,6 +770,10 @@
     <message>
         <source>Ground</source>
         <translation>Sol</translation>
+    </message>
+    <message>
+        <source>Ground (G)</source>
+        <translation>Sol (G)</translation>
     </message>
     <message>
         <source>Ground and height above ground</source>
@@ -832,6 +908,14 @@
         <translation>Sol ignoré le long de la rive</translation>
     </message>
     <message>
+        <source>In the next run, no point here is ground.</source>
+        <translation>Au prochain calcul, aucun point n'est sol ici.</translation>
+    </message>
+    <message>
+        <source>In the next run, the ground around is continued through the place.</source>
+        <translation>Au prochain calcul, le sol alentour est prolongé à travers cet endroit.</translation>
+    </message>
+    <message>
         <source>Include subfolders</source>
         <translation>Inclure les sous-dossiers</translation>
     </message>
@@ -850,6 +934,10 @@
     <message>
         <source>Kappa [%]</source>
         <translation>Kappa [%]</translation>
+    </message>
+    <message>
+        <source>Keep small knolls and pits</source>
+        <translation>Garder les petites buttes et cuvettes</translation>
     </message>
     <message>
         <source>Keep; old ground that is not ground now becomes 1</source>
@@ -996,6 +1084,10 @@
         <translation>Produit le MNT, le MNS, la hauteur de canopée et l'ombrage d'un nuage de points.</translation>
     </message>
     <message>
+        <source>Makes the canopy height of a surface model and a terrain model, two rasters.</source>
+        <translation>Calcule la hauteur de canopée d'un modèle de surface et d'un modèle de terrain, deux rasters.</translation>
+    </message>
+    <message>
         <source>Mark key points by</source>
         <translation>Marquer les points clés par</translation>
     </message>
@@ -1080,6 +1172,14 @@
         <translation>Ouverture négative</translation>
     </message>
     <message>
+        <source>Next</source>
+        <translation>Suivant</translation>
+    </message>
+    <message>
+        <source>No</source>
+        <translation>Non</translation>
+    </message>
+    <message>
         <source>No Python interpreter was found beside this QGIS, so pip cannot be run: choose a wheel file instead.</source>
         <translation>Aucun interpréteur Python n'a été trouvé à côté de ce QGIS, pip ne peut donc pas s'exécuter : choisissez plutôt un fichier wheel.</translation>
     </message>
@@ -1090,6 +1190,10 @@
     <message>
         <source>No ground near</source>
         <translation>Pas de sol à proximité</translation>
+    </message>
+    <message>
+        <source>No places to review</source>
+        <translation>Aucun endroit à vérifier</translation>
     </message>
     <message>
         <source>No specification</source>
@@ -1118,6 +1222,10 @@
     <message>
         <source>Not ground</source>
         <translation>Pas du sol</translation>
+    </message>
+    <message>
+        <source>Not ground (N)</source>
+        <translation>Pas du sol (N)</translation>
     </message>
     <message>
         <source>Not ground, except with a classic preset</source>
@@ -1192,6 +1300,14 @@
         <translation>Tronçons de rivière</translation>
     </message>
     <message>
+        <source>Place {}</source>
+        <translation>Endroit {}</translation>
+    </message>
+    <message>
+        <source>Place {} of {}</source>
+        <translation>Endroit {} sur {}</translation>
+    </message>
+    <message>
         <source>Places</source>
         <translation>Endroits</translation>
     </message>
@@ -1206,6 +1322,10 @@
     <message>
         <source>Point cloud to terrain</source>
         <translation>Du nuage de points au terrain</translation>
+    </message>
+    <message>
+        <source>Point cloud to terrain…</source>
+        <translation>Du nuage de points au terrain…</translation>
     </message>
     <message>
         <source>Point cloud with all classes</source>
@@ -1228,12 +1348,20 @@
         <translation>Nuages de points</translation>
     </message>
     <message>
+        <source>Point clouds (*.las *.laz *.vpc)</source>
+        <translation>Nuages de points (*.las *.laz *.vpc)</translation>
+    </message>
+    <message>
         <source>Points</source>
         <translation>Points</translation>
     </message>
     <message>
         <source>Points 0.2 to 2 m above the ground</source>
         <translation>Points de 0,2 à 2 m au-dessus du sol</translation>
+    </message>
+    <message>
+        <source>Points are being read: it is not known yet how far this place would rise as ground. Press G again to answer without that.</source>
+        <translation>Lecture des points en cours : on ne sait pas encore de combien cet endroit monterait. Appuyez encore sur G pour répondre sans cela.</translation>
     </message>
     <message>
         <source>Points in the area</source>
@@ -1270,6 +1398,10 @@
     <message>
         <source>Preset</source>
         <translation>Préréglage</translation>
+    </message>
+    <message>
+        <source>Previous</source>
+        <translation>Précédent</translation>
     </message>
     <message>
         <source>Products</source>
@@ -1312,8 +1444,12 @@
         <translation>Raster dont la grille est à utiliser</translation>
     </message>
     <message>
-        <source>Ready. Compressed point clouds (.laz) need one more package, which is installed only once.</source>
-        <translation>Prêt. Les nuages de points compressés (.laz) demandent un paquet de plus, qui n'est installé qu'une seule fois.</translation>
+        <source>Reading the points…</source>
+        <translation>Lecture des points…</translation>
+    </message>
+    <message>
+        <source>Ready. Point clouds in .laz need one more package.</source>
+        <translation>Prêt. Les nuages de points .laz demandent un paquet de plus.</translation>
     </message>
     <message>
         <source>Ready. The package lazrs is in {}</source>
@@ -1396,12 +1532,28 @@
         <translation>Retours du modèle de surface</translation>
     </message>
     <message>
+        <source>Review</source>
+        <translation>Vérification</translation>
+    </message>
+    <message>
+        <source>Right as it is</source>
+        <translation>Juste tel quel</translation>
+    </message>
+    <message>
+        <source>Right as it is (R)</source>
+        <translation>Juste tel quel (R)</translation>
+    </message>
+    <message>
         <source>Rivers</source>
         <translation>Rivières</translation>
     </message>
     <message>
         <source>Rule that decided each cell</source>
         <translation>Règle qui a décidé de chaque cellule</translation>
+    </message>
+    <message>
+        <source>Run a tool with the expected error of the terrain, then Places to review; or choose a layer of places.</source>
+        <translation>Lancez un outil avec l'erreur attendue du terrain, puis « Endroits à vérifier » ; ou choisissez une couche d'endroits.</translation>
     </message>
     <message>
         <source>Search radius</source>
@@ -1440,8 +1592,16 @@
         <translation>Montre tertres, murs, fossés et anciens chemins : vue du ciel, ouverture, relief local, VAT.</translation>
     </message>
     <message>
+        <source>Skip (S)</source>
+        <translation>Passer (S)</translation>
+    </message>
+    <message>
         <source>Skip missing tiles</source>
         <translation>Ignorer les tuiles manquantes</translation>
+    </message>
+    <message>
+        <source>Skipped</source>
+        <translation>Passé</translation>
     </message>
     <message>
         <source>Sky-view factor</source>
@@ -1604,6 +1764,10 @@
         <translation>Modèle numérique de terrain (MNT)</translation>
     </message>
     <message>
+        <source>Terrain model of the run before</source>
+        <translation>Modèle de terrain du calcul précédent</translation>
+    </message>
+    <message>
         <source>Terrain with buildings</source>
         <translation>Terrain avec bâtiments</translation>
     </message>
@@ -1664,6 +1828,10 @@
         <translation>Valeurs de l'article</translation>
     </message>
     <message>
+        <source>The place stays for another time.</source>
+        <translation>L'endroit reste pour une autre fois.</translation>
+    </message>
+    <message>
         <source>The raster with the grid to use is not a file. Export it as GeoTIFF first.</source>
         <translation>Le raster dont la grille est à utiliser n'est pas un fichier. Exportez-le d'abord en GeoTIFF.</translation>
     </message>
@@ -1674,6 +1842,14 @@
     <message>
         <source>The same without QGIS:</source>
         <translation>La même chose sans QGIS :</translation>
+    </message>
+    <message>
+        <source>The terrain changed on {} m², by {} m on average and {} at most.</source>
+        <translation>Le terrain a changé sur {} m², de {} m en moyenne et de {} au plus.</translation>
+    </message>
+    <message>
+        <source>The terrain has not changed.</source>
+        <translation>Le terrain n'a pas changé.</translation>
     </message>
     <message>
         <source>The terrain model is not a file. Export it as GeoTIFF first.</source>
@@ -1702,6 +1878,10 @@
     <message>
         <source>Tiles kept</source>
         <translation>Dalles gardées</translation>
+    </message>
+    <message>
+        <source>To review</source>
+        <translation>À vérifier</translation>
     </message>
     <message>
         <source>Tolerance above</source>
@@ -1750,6 +1930,10 @@
     <message>
         <source>USGS Lidar Base Specification, QL2</source>
         <translation>USGS Lidar Base Specification, QL2</translation>
+    </message>
+    <message>
+        <source>Undo</source>
+        <translation>Annuler</translation>
     </message>
     <message>
         <source>Unit of the cell size</source>
@@ -1808,6 +1992,14 @@
         <translation>Surface de l'eau</translation>
     </message>
     <message>
+        <source>What changed is not known: one of the two runs has no terrain model.</source>
+        <translation>On ne sait pas ce qui a changé : un des deux calculs n'a pas de modèle de terrain.</translation>
+    </message>
+    <message>
+        <source>What changed is not known: the new terrain model has other cells.</source>
+        <translation>On ne sait pas ce qui a changé : le nouveau modèle de terrain a d'autres cellules.</translation>
+    </message>
+    <message>
         <source>Wheel file of lazrs</source>
         <translation>Fichier wheel de lazrs</translation>
     </message>
@@ -1848,6 +2040,14 @@
         <translation>Écrire les hauteurs comme</translation>
     </message>
     <message>
+        <source>Writes the points of an area as they are, and nothing else.</source>
+        <translation>Écrit les points d'une zone tels quels, et rien d'autre.</translation>
+    </message>
+    <message>
+        <source>Yes</source>
+        <translation>Oui</translation>
+    </message>
+    <message>
         <source>Z, in place of the elevation</source>
         <translation>Z, à la place de l'altitude</translation>
     </message>
@@ -1864,6 +2064,10 @@
         <translation>bâtiments,toits,arbres,classes,classification,ponts,bruit,lasclassify,asprs,ign</translation>
     </message>
     <message>
+        <source>canopy</source>
+        <translation>canopée</translation>
+    </message>
+    <message>
         <source>checkpoints,check points,control points,gcp,accuracy,quality,rmse,rmsez,vertical accuracy,nva,vva,asprs,validation,lascontrol,hold-out</source>
         <translation>points de contrôle,points d'appui,gcp,précision,qualité,rmse,rmsez,précision altimétrique,nva,vva,asprs,validation,lascontrol</translation>
     </message>
@@ -1874,6 +2078,18 @@
     <message>
         <source>classified files</source>
         <translation>fichiers classés</translation>
+    </message>
+    <message>
+        <source>clip,crop,cut,extent,boundary,polygon,subset,las2las,pdal crop</source>
+        <translation>découper,extraire,clip,emprise,limite,polygone,partie,las2las,pdal crop</translation>
+    </message>
+    <message>
+        <source>contours</source>
+        <translation>courbes de niveau</translation>
+    </message>
+    <message>
+        <source>contours,isolines,contour map,depression,knoll,dxf,cad,ocad</source>
+        <translation>courbes de niveau,isolignes,carte,dépression,butte,dxf,cad,ocad</translation>
     </message>
     <message>
         <source>contours,workflow</source>
@@ -1898,6 +2114,10 @@
     <message>
         <source>download,remote,url,web,http,clip,cloud storage,reproject,utm</source>
         <translation>télécharger,distant,url,web,http,découper,stockage cloud,reprojeter,utm</translation>
+    </message>
+    <message>
+        <source>dsm,dtm,canopy height model,difference,subtract,raster calculator</source>
+        <translation>mns,mnt,mnh,modèle de hauteur de canopée,différence,calculatrice raster</translation>
     </message>
     <message>
         <source>finer cells off surface</source>
@@ -1930,6 +2150,10 @@
     <message>
         <source>height,extra bytes</source>
         <translation>hauteur,dimension supplémentaire</translation>
+    </message>
+    <message>
+        <source>heights times {}</source>
+        <translation>hauteurs fois {}</translation>
     </message>
     <message>
         <source>key points</source>
@@ -1984,12 +2208,12 @@
         <translation>m ou ft</translation>
     </message>
     <message>
-        <source>m2</source>
-        <translation>m2</translation>
-    </message>
-    <message>
         <source>narrow pits</source>
         <translation>fosses étroites</translation>
+    </message>
+    <message>
+        <source>no change</source>
+        <translation>aucun changement</translation>
     </message>
     <message>
         <source>no key point</source>
@@ -2014,6 +2238,10 @@
     <message>
         <source>pits in blocks</source>
         <translation>fosses dans des blocs</translation>
+    </message>
+    <message>
+        <source>place</source>
+        <translation>endroit</translation>
     </message>
     <message>
         <source>places to review</source>
@@ -2104,6 +2332,10 @@
         <translation>terrain et surface</translation>
     </message>
     <message>
+        <source>terrain from {} to {}</source>
+        <translation>terrain de {} à {}</translation>
+    </message>
+    <message>
         <source>terrain,terrain model,elevation model,dtm,dem,dsm,hillshade,relief</source>
         <translation>terrain,modèle de terrain,modèle d'altitude,mnt,mns,mne,dtm,dem,dsm,ombrage,relief</translation>
     </message>
@@ -2134,6 +2366,10 @@
     <message>
         <source>vpc,tiles,batch,survey,folder,many files</source>
         <translation>vpc,dalles,lot,levé,dossier,nombreux fichiers</translation>
+    </message>
+    <message>
+        <source>where it may be</source>
+        <translation>où il peut être</translation>
     </message>
     <message>
         <source>wide low groups</source>
@@ -2216,12 +2452,28 @@
         <translation>{} n'est pas un wheel : choisissez un fichier qui se termine par .whl.</translation>
     </message>
     <message>
+        <source>{} is not on this computer. Choose a file.</source>
+        <translation>{} n'est pas sur cet ordinateur. Choisissez un fichier.</translation>
+    </message>
+    <message>
         <source>{} is not on this computer: give the extent to download.</source>
         <translation>{} n'est pas sur cet ordinateur : indiquez l'emprise à télécharger.</translation>
     </message>
     <message>
         <source>{} lists {} point clouds that have points there, and this algorithm reads one. Choose 'Point cloud to terrain', or download them first.</source>
         <translation>{} nomme {} nuages de points qui ont des points à cet endroit, et cet algorithme n'en lit qu'un. Choisissez « Du nuage de points au terrain », ou téléchargez-les d'abord.</translation>
+    </message>
+    <message>
+        <source>{} m² by {} m, at most {} m</source>
+        <translation>{} m² de {} m, au plus {} m</translation>
+    </message>
+    <message>
+        <source>{} of {} answered</source>
+        <translation>{} sur {} avec réponse</translation>
+    </message>
+    <message>
+        <source>{} points higher or lower</source>
+        <translation>{} points plus haut ou plus bas</translation>
     </message>
     <message>
         <source>{} were removed from {}.</source>
