@@ -19,8 +19,9 @@ STEP, SHADE = 1e-3, 4.0
 # Cells of rasters on a side of a square, pixels of a picture, values of a column, coordinates.
 CELLS, PIXELS, POINTS, COORDINATES = 6, 16, 25, 8
 _QUARTERS = 4
-# Rounding both sums moves them apart by one quarter at most: 1.25 steps always pass, 1.75 never.
-_ALIKE = 6
+# Rounding both sums moves them apart by one quarter at most: one step always passes, two never,
+# also where last bits of all values of the group differ.
+_ALIKE = 5
 _LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_"
 _VALUE = {letter: value for value, letter in enumerate(_LETTERS)}
 _BASE = len(_LETTERS)
