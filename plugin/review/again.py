@@ -81,8 +81,11 @@ def _with_own(layer: str, run: Run) -> str:
         own = one.path("CORRECTIONS") if is_same else ""
         if own and not has_places(QgsVectorLayer(own)):
             path = QgsProcessingUtils.generateTempFilename("corrections.fgb")
-            both = {"LAYERS": [own, layer], "OUTPUT": path}  # where both are, the answer counts
-            return str(processing.run("native:mergevectorlayers", both)["OUTPUT"])
+            both = {"LAYERS": [own, layer], "OUTPUT": "TEMPORARY_OUTPUT"}  # the answer counts
+            merged = processing.run("native:mergevectorlayers", both)["OUTPUT"]
+            # Places of the last round can hold the same polygons.
+            once = {"INPUT": merged, "OUTPUT": path}
+            return str(processing.run("native:deleteduplicategeometries", once)["OUTPUT"])
     return layer
 
 

@@ -89,7 +89,9 @@ class Session:
     def read(self) -> None:
         """Read the places again, because the layer has changed."""
         found = map(_place_of, self.layer.getFeatures() if self.layer else ())
-        self.places = sorted(found, key=lambda place: (place.rank, place.feature))
+        # The user's own corrections, which are carried over too, have no profile.
+        known = (place for place in found if math.isfinite(sum(place.line)))
+        self.places = sorted(known, key=lambda place: (place.rank, place.feature))
         self.number = min(self.number, max(len(self.places) - 1, 0))
 
     @property
