@@ -117,7 +117,7 @@ def test_a_terminal_gets_a_bar_and_messages(file, out, capsys, monkeypatch):
         (["classify", "{in}", "out.txt"], "out.txt"),
         (["classify", "{in}", "o.las", "--dtm", "a.tif", "--hillshade", "a.tif"], "same file"),
         (["classify", "{in}", "nowhere/out.las"], "does not exist"),
-        (["classify", "{in}", "out.las", "--from-classes", "6"], "has only the classes 1."),
+        (["classify", "{in}", "out.las", "--from-classes", "6"], "has only the class 1."),
         (["classify", "{in}", "out.las", "--extent", "0", "0", "9", "9"], "lies in the area"),
         (["classify", "{in}", "out.las", "--boundary", "missing.wkt"], "missing.wkt"),
         (["classify", "{in}", "out.las", "--boundary", "{in}"], "GeoJSON"),
