@@ -140,6 +140,11 @@ class Discs:
         self._before = -corner[0] % self.group, corner[1] % self.group
 
     @property
+    def most_at_once(self) -> int:
+        """How many cells are read for a square span of the largest kind."""
+        return (_SIDE + 2 * self.margin) ** 2
+
+    @property
     def margin(self) -> int:
         """How many cells beyond a span can matter."""
         return (math.ceil(self._grow) + math.ceil(self._shrink) + 1) * self.group

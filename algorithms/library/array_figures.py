@@ -13,6 +13,7 @@ from ..core.parameters import ParameterSet
 from ..core.progress import Progress
 from ..core.threads import available_cpus, may_use
 from ..las.cloud import PointCloud
+from ..survey.pieces import pieces_of
 from ..tools import file_tool
 from ..tools.check.accuracy import Accuracy
 from ..tools.check.checking import CheckOptions, check_points
@@ -37,8 +38,15 @@ class _CloudGround(SurveyGround):
         # The box is that of a file with these points, so that cells begin at the same places.
         (west, south, east, north), (x, y) = cloud.box, cloud.scale[:2]
         box = west - x, south - y, east + x, north + y
-        tile = SimpleNamespace(path=cloud.path, count=cloud.count, outer_box=box)
-        survey: Any = SimpleNamespace(crs=cloud.crs, tiles=(tile,), box=box, count=cloud.count)
+        tile: Any = SimpleNamespace(
+            path=cloud.path, count=cloud.count, outer_box=box, scale=cloud.scale
+        )
+        pieces = pieces_of(
+            (tile,), cloud.crs.horizontal_unit, read=lambda *_: (part for _, part in cloud.parts())
+        )
+        survey: Any = SimpleNamespace(
+            crs=cloud.crs, tiles=(tile,), box=box, count=cloud.count, pieces=pieces
+        )
         super().__init__(survey, ground)
         self._cloud = cloud
 

@@ -161,7 +161,7 @@ class SparseFile:
         self._finish(math.inf)
         directories = [self._directory(number) for number in range(len(self._levels))]
         lengths = [_length(directory) for directory in directories]
-        starts = np.cumsum([_HEADER.size, *lengths]).tolist()
+        starts = np.cumsum([_HEADER.size, *lengths], dtype=np.int64).tolist()
         self._place_tiles(starts[-1])
         file.write(_HEADER.pack(b"II", 43, 8, 0, starts[0]))
         for number, (start, after) in enumerate(zip(starts, [*starts[1:-1], 0])):

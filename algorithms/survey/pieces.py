@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Iterable, NamedTuple
+from typing import Callable, Iterable, NamedTuple
 
 import numpy as np
 
@@ -11,6 +11,7 @@ from ..core.errors import BareEarthError
 from ..core.points import Box, box_round, scaled
 from ..core.progress import SILENT, Progress
 from ..core.words import counted
+from ..las.cloud import PointCloud
 from ..las.lasfile import LasFile
 from ..las.reading import read_parts
 
@@ -31,6 +32,9 @@ _SHARE_STRAY = 1e-3
 _TIMES_APART = 10.0
 _HALF = 1 << 31  # makes column numbers positive
 _MOST_TOLD = 3  # groups of stray points that are named
+# Squares of a grid that is labelled as a whole: to import scipy.sparse takes longer.
+_MOST_SQUARES = 1_000_000
+Read = Callable[[LasFile, Progress], Iterable[PointCloud]]
 
 
 class Piece(NamedTuple):
@@ -57,11 +61,13 @@ class _Held(NamedTuple):
     box: np.ndarray  # float64 (n, 4): extent of the points, in units of the CRS
 
 
-def pieces_of(tiles: Iterable[LasFile], unit: float, progress: Progress = SILENT) -> list[Piece]:
+def pieces_of(
+    tiles: Iterable[LasFile], unit: float, progress: Progress = SILENT, read: Read = read_parts
+) -> list[Piece]:
     """Return the pieces of a survey, the one with the most points first, given the metres in a unit
     of the CRS; the points of files are read only where the extent leaves room for stray ones.
     """
-    held = [_held_by(tile, unit, progress) for tile in tiles]
+    held = [_held_by(tile, unit, read, progress) for tile in tiles]
     place, count, area, box = (np.concatenate(columns) for columns in zip(*held))
     group = _groups(place)
     points = np.rint(np.bincount(group, weights=count)).astype(np.int64)
@@ -86,11 +92,13 @@ def pieces_of(tiles: Iterable[LasFile], unit: float, progress: Progress = SILENT
 
 def _groups(place: np.ndarray) -> np.ndarray:
     """Return the group of each square, (n,): squares with a common side or corner are in one."""
+    row, column = (place - place.min(axis=0)).T
+    width = int(column.max()) + 2
+    if (int(row.max()) + 1) * width <= _MOST_SQUARES:
+        return _labelled(row, column)
     from scipy.sparse import coo_matrix
     from scipy.sparse.csgraph import connected_components
 
-    row, column = (place - place.min(axis=0)).T
-    width = int(column.max()) + 2
     numbers, square = np.unique(row * width + column, return_inverse=True)
     pairs = []
     for beside in (1, width - 1, width, width + 1):
@@ -102,6 +110,16 @@ def _groups(place: np.ndarray) -> np.ndarray:
     shape = len(numbers), len(numbers)
     links = coo_matrix((np.ones(len(first), dtype=bool), (first, second)), shape=shape)
     return connected_components(links, directed=False)[1][square.ravel()]
+
+
+def _labelled(row: np.ndarray, column: np.ndarray) -> np.ndarray:
+    """Return the group of each square, as `_groups`, by a grid of all squares."""
+    from scipy import ndimage
+
+    grid = np.zeros((int(row.max()) + 1, int(column.max()) + 1), dtype=bool)
+    grid[row, column] = True
+    labels, _ = ndimage.label(grid, np.ones((3, 3)))
+    return labels[row, column] - 1
 
 
 def _distance(boxes: np.ndarray, others: np.ndarray) -> float:
@@ -135,12 +153,12 @@ def _far(metres: float) -> str:
     return f"{metres / 1000.0:,.1f} km" if metres < 10_000.0 else f"{metres / 1000.0:,.0f} km"
 
 
-def _held_by(tile: LasFile, unit: float, progress: Progress) -> _Held:
+def _held_by(tile: LasFile, unit: float, read: Read, progress: Progress) -> _Held:
     """Return the squares that hold the points of a file."""
     if not _has_room(tile, unit):
         return _of_extent(tile, unit)
     try:
-        return _of_points(tile, unit, progress)
+        return _of_points(tile, unit, read, progress)
     except BareEarthError:  # whoever needs its points says what is wrong with it
         nothing, box = np.zeros((1, 2), dtype=np.int64), np.array([tile.outer_box])
         return _Held(nothing, np.array([float(tile.count)]), np.ones(1), box)
@@ -172,12 +190,12 @@ def _of_extent(tile: LasFile, unit: float) -> _Held:
     return _Held(np.column_stack((row, column)), share * tile.count, area, np.column_stack(box))
 
 
-def _of_points(tile: LasFile, unit: float, progress: Progress) -> _Held:
+def _of_points(tile: LasFile, unit: float, read: Read, progress: Progress) -> _Held:
     """Return the squares that the points of a file touch."""
     held: dict[tuple[int, int], np.ndarray] = {}  # count, and extent
     fine: set[int] = set()
     ratio = round(_SQUARE / _FINE)
-    for part in read_parts(tile, progress.quiet()):
+    for part in read(tile, progress.quiet()):
         x, y = part.coordinates()
         row, column = (np.floor(axis * unit / _FINE).astype(np.int64) for axis in (y, x))
         fine.update(np.unique((row << 32) + column + _HALF).tolist())

@@ -24,7 +24,10 @@ from .session import GROUND, NOT_GROUND, RIGHT, SKIP, Place, Session
 _TEXTS = {
     RIGHT: (mark("Right as it is (R)"), mark("Changes nothing, and is left out next time.")),
     NOT_GROUND: (mark("Not ground (N)"), mark("In the next run, no point here is ground.")),
-    GROUND: (mark("Ground (G)"), mark("In the next run, the ground around is continued through the place.")),
+    GROUND: (
+        mark("Ground (G)"),
+        mark("In the next run, the ground around is continued through the place."),
+    ),
     SKIP: (mark("Skip (S)"), mark("The place stays for another time.")),
 }
 

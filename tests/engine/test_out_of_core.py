@@ -164,9 +164,8 @@ def test_a_stray_point_far_away_stops_nothing(method, size, tmp_path):
     assert 1000 < summary.ground_count < 7900
     if method != "slope":
         return  # a raster knows no method
-    with pytest.raises(BareEarthError, match="larger cell size, or remove points with stray"):
-        run(source, tmp_path / "dtm", method, SIZES[size], rasters=("dtm",))
-    assert os.listdir(tmp_path / "dtm") == []
+    _, files = run(source, tmp_path / "dtm", method, SIZES[size], rasters=("dtm",))
+    assert len(files["dtm.tif"]) < 10_000_000  # land without points takes no room
 
 
 # Limits

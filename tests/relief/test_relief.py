@@ -295,7 +295,7 @@ def cells(path):
 
 def test_files_and_strips_make_no_seams(tmp_path, monkeypatch):
     whole = drawn([write(tmp_path / "in.laz")], tmp_path / "a")
-    monkeypatch.setattr(outline, "_CELLS_A_STRIP", 1)
+    monkeypatch.setattr(outline, "_CELLS_A_SPAN", 1)
     monkeypatch.setattr(outline, "_ROWS", 7)
     parts = [write(tmp_path / f"{n}.laz", 20.0 * n, 20.0 * n + 20) for n in range(3)]
     many = drawn(parts, tmp_path / "b")

@@ -120,7 +120,7 @@ def test_the_terrain_model_is_the_same_and_the_pictures_are_smoother(tmp_path):
 @pytest.mark.long
 def test_strips_and_files_make_no_seams(tmp_path, monkeypatch):
     whole = drawn(write(tmp_path / "in.laz"), tmp_path / "a")
-    monkeypatch.setattr(outline, "_CELLS_A_STRIP", 1)
+    monkeypatch.setattr(outline, "_CELLS_A_SPAN", 1)
     monkeypatch.setattr(outline, "_ROWS", 7)
     parts = [write(tmp_path / f"{n}.laz", 20.0 * n, 20.0 * n + 20) for n in range(3)]
     many = drawn(parts, tmp_path / "b")

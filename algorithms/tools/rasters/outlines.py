@@ -13,7 +13,9 @@ from typing import Callable, NamedTuple, Sequence
 
 import numpy as np
 
+from ...core.errors import BareEarthError
 from ...core.progress import SILENT, Progress
+from ...core.words import option
 from ...grids.cell_window import CellWindow
 from ...grids.cells import are_inside
 from ...grids.morphology import closing, within_square
@@ -31,6 +33,8 @@ _LEAST_OF_GROUND = 10.0
 _SQUARE = 16
 # Fewest cells with points of a usual square for a sound distance; else squares are joined.
 _FEWEST = 16
+# Cells that may be read at a time to close the gaps between points.
+_MOST_AT_ONCE = 1_000_000_000
 # Columns that are refined at a time.
 _COLUMNS = 512
 
@@ -180,6 +184,13 @@ class Outlines:
         self._of_points = Discs(contents.points, self._corner, near, near)
         least = min(_LEAST_OF_GROUND / cell, MOST_CELLS - 1)
         self._near_ground = _radius(max(_SPACINGS * of_ground, least))
+        if self._of_points.most_at_once > _MOST_AT_ONCE < math.prod(self._shape):
+            rows, columns = self._shape
+            raise BareEarthError(
+                f"The rasters would have {columns:,} x {rows:,} cells of {cell:g} m for points that"
+                f" lie some {of_all * cell:,.0f} m apart. Choose a larger cell size, or give the"
+                f" extent of the rasters ({option('raster_extent')})."
+            )
 
     def survey(self, progress: Progress = SILENT) -> Outline:
         """Return the outline of all points."""
