@@ -53,6 +53,8 @@ class ManyFiles(Execution):
     # stop the others; if no file can be processed, that is an error. If the user asks to stop,
     # `FinishedFilesStay` is raised.
 
+    _is_refused = False  # all files together
+
     def open(self, inputs: Inputs) -> None:
         """Open the files, and refuse now what would fail at the end."""
         self._searched = inputs if inputs.recursive else ()
@@ -121,16 +123,27 @@ class ManyFiles(Execution):
             self._survey, self._targets, self._point_steps, waiting, progress.part(0.0, 0.02),
             has_sinks=bool(self._sinks),
         )  # fmt: skip
+        is_new = not folder.exists()
         with write_errors_told(folder):
             folder.mkdir(parents=True, exist_ok=True)
             make_work_folder(records)
-        with alone_in(records):
+        with contextlib.ExitStack() as ends:
+            if is_new:
+                ends.callback(self._leave_nothing, folder, records)  # after the lock
+            ends.enter_context(alone_in(records))
             _clear(folder, results=not resume)
             with write_errors_told(folder):
                 make_work_folder(waiting)
             plan.keep_finished(resume, progress)
             self._run(plan, folder, waiting, workers, progress.part(0.02, 1.0))
             _clear(folder, results=True)
+
+    def _leave_nothing(self, folder: Path, records: Path) -> None:
+        """Remove the folder that was made for a survey that is refused."""
+        if self._is_refused:
+            remove(records)
+            with contextlib.suppress(OSError):  # it holds something else
+                folder.rmdir()
 
     def _run(
         self, plan: Plan, folder: Path, waiting: Path, workers: Workers, progress: Progress
@@ -153,6 +166,7 @@ class ManyFiles(Execution):
             try:
                 self._point_steps[0].tell_of_survey(self._done, empty, progress)
             except BareEarthError:  # it refuses all files together
+                self._is_refused = True
                 for path in (folder / summary.name for summary in queue.done):
                     remove(path)
                     remove_record(path)

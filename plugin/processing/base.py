@@ -354,7 +354,8 @@ def words_in(groups: Iterable[str]) -> list[str]:
 
 def _exists(source: str) -> bool:
     """Return whether the file of a layer exists; a GeoPackage can name a layer behind a bar."""
-    return Path(source.partition("|")[0]).exists()
+    # A file's own name may have the sign that separates it from a layer in it.
+    return Path(source).exists() or Path(source.rpartition("|")[0] or source).exists()
 
 
 def _plain(text: str) -> str:

@@ -410,7 +410,7 @@ def test_a_shipped_model_reloads_its_layers(run, scene, tmp_path):
     # With another interval, the legend is another one.
     again = run("bareearth:terraincontours", {**values, "INTERVAL": 1.0}, outputs)
     rules = again["Contour lines"].renderer().rootRule().children()
-    assert [rule.label() for rule in rules] == ["Every 5 m", "Every 1 m"]
+    assert [rule.label() for rule in rules] == ["Every 5 m", "Every 1 m", "Depression"]
     # A run that fails leaves all layers as they were.
     scene.path.write_bytes(scene.path.read_bytes()[:3000])
     with pytest.raises(QgsProcessingException):

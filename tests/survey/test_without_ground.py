@@ -116,7 +116,8 @@ def test_a_survey_without_any_ground_is_refused_with_the_reason(name, roof, tmp_
     assert not finished(tmp_path / "out") and not (tmp_path / "out" / "classified.vpc").exists()
     both = [roof / name, roof / ("first.laz" if name != "first.laz" else "water.laz")]
     with pytest.raises(BareEarthError, match=r"^None of the 2 files has ground\. No point takes"):
-        classify(both, tmp_path / "out", **FAST)
+        classify(both, tmp_path / "new", **FAST)
+    assert not (tmp_path / "new").exists()
 
 
 @pytest.mark.parametrize(
