@@ -10,8 +10,7 @@ demo:  ## classify LAS=tile.laz (TRUTH=reference.laz), LAND=mountain, campus or 
 test:  ## run all that follows, installing a QGIS if there is none
 	@tools/test core lint qgis
 
-test-all:  ## run what `test` and test-systems run, and the outputs of all tools as on processors with fewer instructions
-	@tools/test core levels windows oldest lint qgis
+test-all: test test-systems  ## run what `test` and `test-systems` run: what CI runs here
 
 test-core:  ## test the classifier, without QGIS
 	@tools/test core
@@ -19,8 +18,8 @@ test-core:  ## test the classifier, without QGIS
 test-long:  ## run the tests that test-core leaves out, for they take long
 	@tools/test long
 
-test-systems:  ## test what touches files once more as on Windows, and in Python 3.9 with the oldest NumPy and SciPy, if there is one, what can differ
-	@tools/test windows oldest
+test-systems:  ## test once more what can differ: outputs on processors with fewer instructions, files as on Windows, and Python 3.9 with the oldest NumPy and SciPy
+	@tools/test levels windows oldest
 
 lint:  ## check the style, the types, and what plugins.qgis.org checks
 	@tools/test lint
