@@ -128,7 +128,8 @@ def test_the_menu_opens_the_dialog_with_which_users_begin(qgis):
         answer["titles"] = [widget.windowTitle() for widget in shown]
         """
     )
-    assert "Point cloud to terrain" in answer["titles"]
+    # Newer QGIS writes titles in its own case.
+    assert any("point cloud to terrain" in title.lower() for title in answer["titles"]), answer
 
 
 def test_the_menu_opens_the_documentation_in_the_plugin(qgis):
