@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from typing import Callable, Iterable, NamedTuple
 
@@ -32,8 +33,6 @@ _SHARE_STRAY = 1e-3
 _TIMES_APART = 10.0
 _HALF = 1 << 31  # makes column numbers positive
 _MOST_TOLD = 3  # groups of stray points that are named
-# Squares of a grid that is labelled as a whole: to import scipy.sparse takes longer.
-_MOST_SQUARES = 1_000_000
 Read = Callable[[LasFile, Progress], Iterable[PointCloud]]
 
 
@@ -92,34 +91,18 @@ def pieces_of(
 
 def _groups(place: np.ndarray) -> np.ndarray:
     """Return the group of each square, (n,): squares with a common side or corner are in one."""
-    row, column = (place - place.min(axis=0)).T
-    width = int(column.max()) + 2
-    if (int(row.max()) + 1) * width <= _MOST_SQUARES:
-        return _labelled(row, column)
-    from scipy.sparse import coo_matrix
-    from scipy.sparse.csgraph import connected_components
-
-    numbers, square = np.unique(row * width + column, return_inverse=True)
-    pairs = []
-    for beside in (1, width - 1, width, width + 1):
-        found = np.searchsorted(numbers, numbers + beside)
-        found[found == len(numbers)] = 0
-        first = np.flatnonzero(numbers[found] == numbers + beside)
-        pairs.append((first, found[first]))
-    first, second = (np.concatenate(ends) for ends in zip(*pairs))
-    shape = len(numbers), len(numbers)
-    links = coo_matrix((np.ones(len(first), dtype=bool), (first, second)), shape=shape)
-    return connected_components(links, directed=False)[1][square.ravel()]
-
-
-def _labelled(row: np.ndarray, column: np.ndarray) -> np.ndarray:
-    """Return the group of each square, as `_groups`, by a grid of all squares."""
-    from scipy import ndimage
-
-    grid = np.zeros((int(row.max()) + 1, int(column.max()) + 1), dtype=bool)
-    grid[row, column] = True
-    labels, _ = ndimage.label(grid, np.ones((3, 3)))
-    return labels[row, column] - 1
+    # Few squares: to import what labels grids would take longer.
+    left = dict.fromkeys(map(tuple, place.tolist()), -1)
+    for group, start in enumerate(left):
+        waiting = [start] if left[start] < 0 else []
+        while waiting:
+            row, column = square = waiting.pop()
+            if left.get(square, 0) >= 0:  # it holds no points, or has its group
+                continue
+            left[square] = group
+            beside = itertools.product((row - 1, row, row + 1), (column - 1, column, column + 1))
+            waiting += beside
+    return np.unique([left[square] for square in map(tuple, place.tolist())], return_inverse=True)[1]
 
 
 def _distance(boxes: np.ndarray, others: np.ndarray) -> float:
