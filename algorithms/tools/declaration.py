@@ -55,6 +55,8 @@ class Input:
     advanced: bool = False
     is_last: bool = False  # whether the field is below the parameters
     may_be_empty: bool = False  # whether a file or a layer of polygons may contain none
+    # The result of the last run that a dialog shows first; inputs with one belong to one run.
+    made_as: str = ""
     # Returns the value in place of `ToFind`, which stands for polygons that the user leaves out, or
     # for the word automatic. Its arguments: the files, which points are ground, the progress.
     found: Callable[[Inputs, GroundClasses, Progress], Any] | None = None

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import time
 from html import escape
 from pathlib import Path
 from typing import Collection, Iterable, Iterator, Mapping, Union
@@ -342,7 +343,7 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         origin = Origin.of(self.displayName(), self._settings, commands)
         layers.arrange(context, looks, labels, subject, self._stage, origin)
         if results and is_remembered(self):
-            project, run = context.project(), Run(self.id(), self._values, results)
+            project, run = context.project(), Run(self.id(), self._values, results, time.time())
             later(lambda: remember(project, run))
 
 

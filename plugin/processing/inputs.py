@@ -55,7 +55,7 @@ from .remote import (
 from .stated_crs import crs_of_text
 
 # As a name, so that the widget is imported only in dialogs, not in qgis_process.
-_WIDGET = f"{__package__}.widgets.PointCloudWidget"
+_WIDGET = f"{__package__}.layer_widgets.PointCloudWidget"
 # Help of the fields of `add_survey` and `add_clouds`.
 _FILES_HELP = (
     ".las, .laz and .copc.laz files, virtual point clouds (.vpc), or text files (.txt) with one"
@@ -89,7 +89,7 @@ class PointCloudInput(QgsProcessingParameterPointCloudLayer):
 
     def __init__(self, *arguments: object) -> None:
         super().__init__(*arguments)
-        self.setMetadata({"widget_wrapper": {"class": _WIDGET}})
+        self.setMetadata({**self.metadata(), "widget_wrapper": {"class": _WIDGET}})
 
     def clone(self) -> PointCloudInput:
         """Return a copy; dialogs and models work with copies."""

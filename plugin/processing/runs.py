@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
-from typing import Any, Iterable, Mapping, NamedTuple
+from typing import Any, Iterable, Mapping, NamedTuple, Sequence
 
 from qgis.core import (
     QgsApplication,
@@ -26,6 +26,8 @@ _MOST = 20
 # Fields of the algorithms whose runs are remembered, and the results that are classified points.
 _NAMES = ("CORRECTIONS", "EXPECTED_ERROR")
 _CLOUDS = ("OUTPUT", "OUTPUT_VPC", "OUTPUT_FOLDER")
+# In the metadata of a field: the result of the last run that a dialog shows first.
+MADE_AS = "made_as"
 
 
 class Run(NamedTuple):
@@ -34,6 +36,7 @@ class Run(NamedTuple):
     algorithm: str  # its id
     parameters: Mapping[str, object]
     results: Mapping[str, object]
+    ended: float = 0.0  # seconds since 1970; 0 in projects of older versions
 
     @property
     def is_review(self) -> bool:
@@ -58,7 +61,9 @@ class Run(NamedTuple):
         """The points of the run with their classes."""
         names = () if self.is_review else _CLOUDS
         made = (str(self.results[name]) for name in names if self.results.get(name))
-        return next(made, "" if self.is_review else self.path("INPUT"))
+        # Points that a run classifies have their old classes in its input.
+        is_input = not (self.is_review or self.can_be_corrected)
+        return next(made, self.path("INPUT") if is_input else "")
 
     def made(self, path: str) -> bool:
         """Return whether a file is a result of the run, or lies in a folder that is one."""
@@ -126,20 +131,36 @@ def runs_of(project: QgsProject) -> list[Run]:
     return [Run(**run) for run in json.loads(text)]
 
 
+def made_last(name: str, project: QgsProject) -> str:
+    """Return the file of a result of the last run with an expected error that is still there; that
+    of its points is called OUTPUT.
+    """
+    for run in reversed(runs_of(project)):
+        if Path(str(run.results.get("EXPECTED_ERROR") or "?")).is_file():
+            path = run.cloud if name == "OUTPUT" else str(run.results.get(name) or "")
+            return path if path and Path(path).exists() else ""
+    return ""
+
+
 def maker_of(path: str, runs: Iterable[Run]) -> Run | None:
     """Return the last run with this file among its results."""
     return next((run for run in reversed(list(runs)) if run.made(path)), None)
 
 
-def sources_of(places: str, project: QgsProject) -> Sources:
-    """Return where the places of a file come from, by the runs of the project."""
-    runs, path = runs_of(project), places
-    chain: list[Run] = []  # the first one first
+def chain_to(path: str, runs: Sequence[Run]) -> list[Run]:
+    """Return the runs that led to a file, from the one that classified points."""
+    chain: list[Run] = []
     while path and (run := maker_of(path, runs)) is not None:
         chain.insert(0, run)
         runs, path = runs[: runs.index(run)], run.path("INPUT")
         if run.can_be_corrected:
             break
+    return chain
+
+
+def sources_of(places: str, project: QgsProject) -> Sources:
+    """Return where the places of a file come from, by the runs of the project."""
+    chain = chain_to(places, runs_of(project))
     if not chain:
         return Sources()
     review = chain[-1] if chain[-1].is_review else Run("", {}, {})

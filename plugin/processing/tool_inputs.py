@@ -51,8 +51,11 @@ from .inputs import (
 )
 from .layer_files import file_for_command
 from .remote import LAYER_HELP, Remote
+from .runs import MADE_AS
 from .stated_crs import text_of
 
+# As a name, so that the widget is imported only in dialogs, not in qgis_process.
+_RASTER_WIDGET = f"{__package__}.layer_widgets.RasterWidget"
 # Errors for rasters that are not files, by the names of their inputs.
 _NO_FILES = {
     "source": mark("The elevation raster is not a file. Export it as GeoTIFF first."),
@@ -142,6 +145,9 @@ def add_input(algorithm: BareEarthAlgorithm, declared: Input) -> None:
         field = makers[declared.kind]()
     if declared.advanced:
         field.setFlags(field.flags() | compat.ADVANCED)
+    if declared.made_as:
+        widget = {"widget_wrapper": {"class": _RASTER_WIDGET}} if declared.kind == "raster" else {}
+        field.setMetadata({**field.metadata(), **widget, MADE_AS: declared.made_as})
     algorithm.addParameter(field, with_note(declared.help, helps.get(declared.kind, "")))
 
 

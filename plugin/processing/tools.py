@@ -32,11 +32,13 @@ from ...algorithms.tools.listing import FILE_TOOLS, POINT_TOOLS
 from .. import compat
 from ..i18n import mark, tr
 from ..styles import layers
+from ..styles.loaded import in_main_thread
 from .area import has_area
 from .base import BareEarthAlgorithm, Options, command_line
 from .classified import show_class_raster
 from .feedback import FeedbackProgress, Refusal
 from .inputs import ignored_filter
+from .one_run import refuse_two_runs
 from .outputs import after_cancel, cannot_show, do_not_load, is_blank, point_cloud_formats
 from .remote import LIMIT, add_remote
 from .tool_inputs import Given, Request, add_input, given, part_of
@@ -145,6 +147,9 @@ class ToolAlgorithm(BareEarthAlgorithm):
             raise Refusal(
                 mark("{} is not on this computer: give the extent to download."), remotes[0].name
             )
+        made = [str(self._given[one.name].value or "") for one in self._inputs if one.made_as]
+        if made and context.project() is not None and in_main_thread():
+            refuse_two_runs(made, context.project())
         self.set_inputs()
         self.subject = next(found.name for found in self._given.values() if found.name)
 

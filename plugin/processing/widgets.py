@@ -1,4 +1,4 @@
-"""Widgets of fields. Only this file imports qgis.gui for algorithms.
+"""Widgets of fields. Only this file and `layer_widgets.py` import qgis.gui for algorithms.
 
 QGIS imports the class named in the metadata of a parameter, calls it with parameter and dialog, and
 uses the result. The model designer needs another type of widget than other dialogs.
@@ -9,36 +9,25 @@ from __future__ import annotations
 from typing import Any, Iterable
 
 from qgis.core import (
-    QgsPointCloudLayer,
     QgsProcessingContext,
     QgsProcessingParameterDefinition,
-    QgsProcessingParameterFile,
     QgsProcessingParameters,
-    QgsProcessingParameterString,
-    QgsProject,
 )
 from qgis.gui import (
     QgsAbstractProcessingParameterWidgetWrapper,
     QgsCheckableComboBox,
     QgsGui,
-    QgsMapLayerComboBox,
     QgsProcessingGui,
-    QgsProcessingMapLayerComboBox,
     QgsProcessingModelerParameterWidget,
-    QgsProcessingParameterWidgetContext,
 )
-from qgis.PyQt import sip
 from qgis.PyQt.QtCore import Qt
 from qgis.PyQt.QtWidgets import QCheckBox, QComboBox, QLabel, QLineEdit, QWidget
 
 from ...algorithms.delivery.parameters import NO_DELIVERY
-from ...algorithms.remote.addresses import is_address
 from .. import compat
 from ..i18n import tr
-from ..styles.loaded import file_of
 from .choices import LABELS, NO_CHOICE, ChoiceParameter, value_of, values_of
 from .compositions import DELIVERY, FOLDER
-from .remote import ADDRESS, PART, REMOTE, extent_of_map
 
 _STATE = Qt.ItemDataRole.CheckStateRole
 # Letters: least width of a box with choices.
@@ -53,12 +42,12 @@ class ChoiceWidget:
 
     def __new__(cls, parameter: ChoiceParameter, dialog: QWidget, *_: object) -> Any:
         """Return a widget, not an instance of this class."""
-        if _is_designer(dialog):
-            return _designer_widget(parameter, dialog)
+        if is_designer(dialog):
+            return designer_widget(parameter, dialog)
         box = _ChoicesBox if parameter.allowMultiple() else _ChoiceBox
-        if parameter.name() == DELIVERY and _kind(dialog) == QgsProcessingGui.WidgetType.Standard:
+        if parameter.name() == DELIVERY and kind(dialog) == QgsProcessingGui.WidgetType.Standard:
             box = _DeliveryBox
-        return box(parameter, _kind(dialog), dialog)
+        return box(parameter, kind(dialog), dialog)
 
 
 class CheckWidget:
@@ -68,50 +57,30 @@ class CheckWidget:
         cls, parameter: QgsProcessingParameterDefinition, dialog: QWidget, *_: object
     ) -> Any:
         """Return a widget, not an instance of this class."""
-        if _is_designer(dialog):
-            return _designer_widget(parameter, dialog)
-        if _kind(dialog) == QgsProcessingGui.WidgetType.Standard:
-            return _CheckBox(parameter, _kind(dialog), dialog)
-        return _usual_widget(parameter, dialog)
+        if is_designer(dialog):
+            return designer_widget(parameter, dialog)
+        if kind(dialog) == QgsProcessingGui.WidgetType.Standard:
+            return _CheckBox(parameter, kind(dialog), dialog)
+        return usual_widget(parameter, dialog)
 
 
-class PointCloudWidget:
-    """Makes the widget of a point cloud, which accepts files and texts in the model designer."""
-
-    # QGIS itself only offers inputs that are layers there. Without its `pdal` provider, these
-    # cannot be .las and .laz files; texts are addresses. In a dialog for one run, a cloud of the
-    # project is chosen at first.
-
-    def __new__(
-        cls, parameter: QgsProcessingParameterDefinition, dialog: QWidget, *_: object
-    ) -> Any:
-        """Return a widget, not an instance of this class."""
-        if _kind(dialog) == QgsProcessingGui.WidgetType.Standard and not _is_designer(dialog):
-            return _CloudBox(parameter, _kind(dialog), dialog)
-        if not _is_designer(dialog):
-            return _usual_widget(parameter, dialog)
-        widget = _designer_widget(parameter, dialog)
-        # Adds inputs that are files or texts; outputs that are files are already in the list.
-        kinds = QgsProcessingParameterFile, QgsProcessingParameterString
-        widget.populateSources([kind.typeName() for kind in kinds], [], [])
-        return widget
-
-
-def _is_designer(dialog: QWidget) -> bool:
+def is_designer(dialog: QWidget) -> bool:
+    """Return whether a dialog is that of a step in the model designer."""
     return type(dialog).__name__ == "ModelerParametersDialog"
 
 
-def _kind(dialog: QWidget) -> QgsProcessingGui.WidgetType:
+def kind(dialog: QWidget) -> QgsProcessingGui.WidgetType:
+    """Return the kind of the widgets of a dialog that is not the designer."""
     is_batch = type(dialog).__name__.startswith("Batch")
     return QgsProcessingGui.WidgetType.Batch if is_batch else QgsProcessingGui.WidgetType.Standard
 
 
-def _usual_widget(
+def usual_widget(
     parameter: QgsProcessingParameterDefinition, dialog: QWidget
 ) -> QgsAbstractProcessingParameterWidgetWrapper:
     """Return the widget of QGIS in a dialog or in batch mode."""
     registry = QgsGui.processingGuiRegistry()
-    widget = registry.createParameterWidgetWrapper(parameter, _kind(dialog))
+    widget = registry.createParameterWidgetWrapper(parameter, kind(dialog))
     widget.setDialog(dialog)
     return widget
 
@@ -123,7 +92,7 @@ def _label_of(parameter: QgsProcessingParameterDefinition) -> QLabel:
     return label
 
 
-def _designer_widget(
+def designer_widget(
     parameter: QgsProcessingParameterDefinition, dialog: QWidget
 ) -> QgsProcessingModelerParameterWidget:
     """Return the widget of QGIS in the designer, for a value, an input or an output."""
@@ -268,127 +237,6 @@ class _ChoicesBox(_LabelledBox):
         states = [Qt.CheckState(box.itemData(place, _STATE)) for place in range(box.count())]
         chosen = [place for place, state in enumerate(states) if state == Qt.CheckState.Checked]
         return [box.itemData(place) for place in chosen]
-
-
-class _CloudBox(QgsAbstractProcessingParameterWidgetWrapper):
-    """The box of QGIS for a layer or file, in which an address can be typed; first of all it shows
-    a point cloud of the project.
-    """
-
-    # For a remote one, the extent of the map is shown in the field for the extent.
-
-    def createWidget(self) -> QWidget:
-        """Return the box, which offers point clouds only."""
-        box = QgsProcessingMapLayerComboBox(self.parameterDefinition(), self.type())
-        box.setWidgetContext(self.widgetContext())
-        self._suggested: str | None = None
-        self._extent: QgsAbstractProcessingParameterWidgetWrapper | None = None
-        self._shown: object = None  # the suggested extent
-        names = _names_in(box)
-        # In QGIS 3.22 it would offer all layers, and choose one of them.
-        sip.cast(names, QgsMapLayerComboBox).setFilters(compat.POINT_CLOUDS)
-        names.setEditable(True)
-        _show_choice(names)
-        names.setInsertPolicy(QComboBox.InsertPolicy.NoInsert)
-        names.setCompleter(None)
-        names.lineEdit().setPlaceholderText(tr("A layer, a file, or an address (https://…)"))
-        box.valueChanged.connect(lambda: self.widgetValueHasChanged.emit(self))
-        names.editTextChanged.connect(lambda _: self.widgetValueHasChanged.emit(self))
-        return box
-
-    @property
-    def _box(self) -> QgsProcessingMapLayerComboBox:
-        # Fetched each time, as in `_ChoiceBox`; QGIS returns it as a QWidget, which has no value.
-        return sip.cast(self.wrappedWidget(), QgsProcessingMapLayerComboBox)
-
-    def setWidgetContext(self, context: QgsProcessingParameterWidgetContext) -> None:
-        """Store project and window."""
-        super().setWidgetContext(context)
-        if self.wrappedWidget() is not None:
-            self._box.setWidgetContext(context)
-
-    def setWidgetValue(self, value: object, context: QgsProcessingContext) -> None:
-        """Choose a value, but for the first one, the default of the dialog, which is empty."""
-        if self.wrappedWidget() is None:
-            return
-        if self._suggested is None and compat.is_null(value):
-            project = self.widgetContext().project()
-            value = self._suggested = _suggestion(self.parameterDefinition().name(), project)
-        self._suggested = self._suggested or ""
-        self._box.setValue(value or None, context)
-        _show_choice(_names_in(self._box))
-
-    def widgetValue(self) -> object:
-        """Return the layer or file, or what is typed."""
-        value = self._box.value()
-        return value.strip() if isinstance(value, str) else value
-
-    def postInitialize(self, wrappers: list[QgsAbstractProcessingParameterWidgetWrapper]) -> None:
-        """Take the suggestion back if the user chooses a folder, which would be used beside it, and
-        let the extent follow the point cloud.
-        """
-        super().postInitialize(wrappers)
-        for wrapper in wrappers:
-            if wrapper.parameterDefinition().name() == "INPUT_FOLDER":
-                wrapper.widgetValueHasChanged.connect(self._take_back)
-            if wrapper.parameterDefinition().name() == PART:
-                self._extent = wrapper
-        self.widgetValueHasChanged.connect(self._suggest_extent)
-        self._suggest_extent()
-
-    def _suggest_extent(self, *_: object) -> None:
-        """Show the extent of the map for remote points, unless the user gave one."""
-        if self._extent is None:
-            return
-        shown, context = self._extent.parameterValue(), QgsProcessingContext()
-        if not self._is_remote():
-            if shown and shown == self._shown:
-                self._extent.setParameterValue(None, context)
-        elif not shown and (extent := extent_of_map()):
-            self._extent.setParameterValue(extent, context)
-            self._shown = self._extent.parameterValue()
-
-    def _is_remote(self) -> bool:
-        value = self.widgetValue()
-        if isinstance(value, str) and is_address(value):
-            return True
-        project = self.widgetContext().project() or QgsProject.instance()
-        layer = project.mapLayer(str(value or ""))
-        return isinstance(layer, QgsPointCloudLayer) and file_of(layer) is None
-
-    def _take_back(self, folder: QgsAbstractProcessingParameterWidgetWrapper) -> None:
-        is_suggestion = bool(self._suggested) and self._box.value() == self._suggested
-        if is_suggestion and folder.parameterValue():
-            self._box.setLayer(None)
-
-
-def _names_in(box: QgsProcessingMapLayerComboBox) -> QComboBox:
-    """Return the list of layers and files in a box of QGIS."""
-    return box.findChildren(QComboBox)[0]  # of this class, since PyQt does not know its own
-
-
-def _suggestion(name: str, project: QgsProject | None) -> str:
-    """Return the id of the layer that a new dialog shows in a field, given its name; or empty."""
-    layers = _clouds(project)
-    if name == ADDRESS:  # of what is to be downloaded
-        layers = [layer for layer in layers if file_of(layer) is None]
-    is_beside_files = name == REMOTE
-    return layers[0].id() if layers and not is_beside_files else ""
-
-
-def _clouds(project: QgsProject | None) -> list[QgsPointCloudLayer]:
-    """Return the point clouds of the project, the active layer first, and then from the top."""
-    from qgis.utils import iface
-
-    project = project or QgsProject.instance()
-    active = [iface.activeLayer()] if iface is not None else []
-    layers = dict.fromkeys([*active, *project.layerTreeRoot().layerOrder()])
-    return [layer for layer in layers if isinstance(layer, QgsPointCloudLayer)]
-
-
-def _show_choice(names: QComboBox) -> None:
-    """Show a chosen layer without its CRS, as QGIS wants it in a box in which one can type."""
-    names.setEditText(names.itemText(names.currentIndex()))
 
 
 def _narrow(box: QComboBox) -> QComboBox:

@@ -200,6 +200,7 @@ TOOL = FileTool(
             help="The raster of the expected error of a terrain model, as `terrain()` makes it.",
             label="Expected error",
             named="INPUT",
+            made_as="EXPECTED_ERROR",
         ),
         Input(
             "dtm",
@@ -207,6 +208,7 @@ TOOL = FileTool(
             help="The terrain model of the same run: for heights, pictures and profiles.",
             label="Terrain model",
             optional=True,
+            made_as="DTM",
         ),
         Input(
             "cause",
@@ -214,6 +216,7 @@ TOOL = FileTool(
             help="The cause of the expected error, of the same run: for the reason of each place.",
             label="Cause of the expected error",
             optional=True,
+            made_as="ERROR_CAUSE",
         ),
         Input(
             "points",
@@ -223,6 +226,7 @@ TOOL = FileTool(
             label="Classified points",
             optional=True,
             advanced=True,
+            made_as="OUTPUT",
         ),
         Input(
             "earlier",

@@ -1,0 +1,107 @@
+"""Inputs that belong to one run, such as an expected error and its terrain model."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Iterable, Iterator, NamedTuple
+
+from qgis.core import QgsApplication, QgsProcessingParameterDefinition, QgsProject
+
+from ...algorithms.classes.ground_classes import GroundClasses
+from ...algorithms.classes.selection import Selection
+from ...algorithms.delivery.parameters import DeliveryChoice
+from ...algorithms.filters import METHODS
+from ...algorithms.remote.addresses import is_address
+from ...algorithms.tools.ground.method import TileMethod
+from ...algorithms.tools.input_groups import GROUPS
+from .. import compat
+from ..i18n import mark
+from ..styles.loaded import is_same, sources_of
+from .feedback import Refusal
+from .runs import Run, chain_to, maker_of, runs_of
+
+_OTHERS = mark('"{}" is from the run "{}", and "{}" from "{}": choose both from one run.')
+# What decides about the ground and the terrain: the source, what is drawn by hand, and these sets.
+_SETS = (
+    TileMethod, Selection, GroundClasses, DeliveryChoice,
+    *(method.parameters for method in METHODS.values()),
+)  # fmt: skip
+_SOURCES = ("INPUT", "INPUT_FOLDER")
+_BY_HAND = tuple(
+    part.field_name for group in ("corrections", "constraints") for part in GROUPS[group]
+)
+# Seconds between the end of a run and changes of its files that are not its own.
+_AFTERWARDS = 2.0
+
+
+class _Made(NamedTuple):
+    """An input that a run of the project made."""
+
+    path: str
+    chain: list[Run]  # the runs that led to it, as `chain_to` returns them
+
+    def name(self, project: QgsProject) -> str:
+        """The name of its layer, or of its file."""
+        layers = sources_of(project, [Path(self.path)])
+        return project.mapLayer(layers[0].layer).name() if layers else self.path
+
+    @property
+    def run(self) -> str:
+        """The run in words."""
+        algorithm = QgsApplication.processingRegistry().algorithmById(self.chain[-1].algorithm)
+        source = self.chain[0].path("INPUT") or self.chain[0].path("INPUT_FOLDER")
+        return f"{algorithm.displayName()}, {Path(source).name}"
+
+
+def refuse_two_runs(paths: Iterable[str], project: QgsProject) -> None:
+    """Refuse files if it is known that runs with another ground made them."""
+    made = list(_made(paths, runs_of(project)))
+    for other in made[1:]:
+        if _is_other(made[0].chain, other.chain):
+            names = made[0].name(project), made[0].run, other.name(project), other.run
+            raise Refusal(_OTHERS, *names)
+
+
+def _made(paths: Iterable[str], runs: list[Run]) -> Iterator[_Made]:
+    """Yield the inputs that runs made that classified their points."""
+    for path in filter(None, paths):
+        run, file = maker_of(path, runs), Path(path)
+        # Another program may have written the file since then.
+        if run is None or not file.exists() or file.stat().st_mtime > run.ended + _AFTERWARDS:
+            continue
+        chain = chain_to(path, runs)
+        # Of other points it is not known where their ground comes from.
+        if chain[0].can_be_corrected:
+            yield _Made(path, chain)
+
+
+def _is_other(first: list[Run], second: list[Run]) -> bool:
+    """Return whether two chains of runs give another ground; False if that is not known."""
+    one, other = first[0], second[0]
+    if one.algorithm != other.algorithm:
+        return True
+    algorithm = QgsApplication.processingRegistry().algorithmById(one.algorithm)
+    names = {
+        declared.name.upper()
+        for kind in algorithm.parameter_sets()
+        if issubclass(kind, _SETS)
+        for declared in kind.declarations()
+    }
+    names.update((*_SOURCES, *_BY_HAND))
+    fields = filter(None, map(algorithm.parameterDefinition, sorted(names)))
+    return any(_is_other_value(one, other, field) for field in fields)
+
+
+def _is_other_value(one: Run, other: Run, field: QgsProcessingParameterDefinition) -> bool:
+    name = field.name()
+    values = [run.parameters.get(name, field.defaultValue()) for run in (one, other)]
+    first, second = ("" if compat.is_null(value) else str(value) for value in values)
+    if first == second:
+        return False
+    if name not in (*_SOURCES, *_BY_HAND):
+        return True
+    # Of a layer that is no file, or no longer in the project, only the name is known.
+    paths = [run.path(name) for run in (one, other)]
+    if not all(not path or is_address(path) or Path(path).exists() for path in paths):
+        return False
+    return not all(paths) or not is_same(*map(Path, paths))
