@@ -334,12 +334,8 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
             crs = crs_of_text(self.stated)
             looks = {path: layers.in_crs(look, crs) for path, look in looks.items()}
         subject = self.subject or tr(self.title)
-        for path, label in labels.items():
+        for path in labels:
             remember_origin(path, subject)
-            if path not in looks and context.willLoadLayerOnCompletion(path):
-                details = context.layerToLoadOnCompletionDetails(path)
-                if details.name in ("", label):  # else it is named by a model
-                    details.name, details.forceName = f"{subject}: {label}", True
         origin = Origin.of(self.displayName(), self._settings, commands)
         layers.arrange(context, looks, labels, subject, self._stage, origin)
         if results and is_remembered(self):

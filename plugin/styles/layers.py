@@ -169,30 +169,23 @@ def arrange(
     stage: Stage,
     origin: Origin,
 ) -> None:
-    """Give looks, by path, to the layers of a run, and a group if there are several."""
+    """Give names, and looks by path, to the layers of a run, and a group if there are several."""
     # Layers that show the same files already are reloaded. They keep their names and places. A
     # layer with another name than QGIS gives it (`labels`) got it from a model. It keeps this name,
     # and is not put into the group. Steps of models set the origin of their layers before.
     project = context.project()
+    titles = {path: label for path, label in labels.items() if path not in looks}
     looks = {path: look._replace(origin=look.origin or origin) for path, look in looks.items()}
     dresses = {path: partial(_dress, look, subject) for path, look in looks.items()}
     stage.reload({path: partial(dress, project) for path, dress in dresses.items()})
     looks = {path: look for path, look in looks.items() if context.willLoadLayerOnCompletion(path)}
     shown = max((look.hides for look in looks.values()), default=0)
     new = _new(context, looks, stage)
-    named = {
-        path
-        for path in set(new) & set(labels)
-        if context.layerToLoadOnCompletionDetails(path).name not in ("", labels[path])
-    }
-    is_grouped = stage.is_old or len(new) - len(named) > 1
+    titles.update((path, tr(look.title)) for path, look in new.items())
+    named = _name(context, titles, labels, subject, stage)
+    is_grouped = stage.is_old or len(new) - len(named & set(new)) > 1
     for path, look in new.items():
-        details = context.layerToLoadOnCompletionDetails(path)
-        is_named = path in named
-        if not is_named:
-            title = tr(look.title)
-            details.name = title if is_grouped else f"{subject}: {title}"
-            details.forceName = True
+        details, is_named = context.layerToLoadOnCompletionDetails(path), path in named
         is_native = hasattr(details, "groupName") and not stage.is_old  # 3.32
         place = None if is_named or not is_grouped else stage
         if is_native and place:
@@ -200,6 +193,26 @@ def arrange(
         processor = _Show(look, subject, place, is_named or look.hides in (0, shown))
         _KEPT.append(processor)
         details.setPostProcessor(processor)
+
+
+def _name(
+    context: QgsProcessingContext,
+    titles: Mapping[str, str],
+    labels: Mapping[str, str],
+    subject: str,
+    stage: Stage,
+) -> set[str]:
+    """Name layers by their titles, but those that a model has named, and return these."""
+    # Boxes in which layers are chosen show no groups: names say of which input and run they are.
+    loaded = [path for path in titles if context.willLoadLayerOnCompletion(path)]
+    details = {path: context.layerToLoadOnCompletionDetails(path) for path in loaded}
+    named = {path for path in loaded if details[path].name not in ("", labels.get(path, ""))}
+    named &= set(labels)
+    ours = [path for path in loaded if path not in named]
+    source = stage.free_source(subject, [titles[path] for path in ours])
+    for path in ours:
+        details[path].name, details[path].forceName = f"{source}: {titles[path]}", True
+    return named
 
 
 def _new(context: QgsProcessingContext, looks: Mapping[str, Look], stage: Stage) -> dict[str, Look]:

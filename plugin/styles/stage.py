@@ -42,6 +42,8 @@ class Stage:
         # Steps of models run in other threads, where the project cannot be read.
         is_main = loaded.in_main_thread()
         self._sources = loaded.sources_of(self._project, self._places) if is_main else []
+        layers = self._project.mapLayers().values() if self._project and is_main else ()
+        self._names = {layer.name() for layer in layers}
         title = loaded.edited(self._project, self._sources)
         if title:
             text = tr('The layer "{}" is being edited. Save or discard the edits first.')
@@ -61,6 +63,15 @@ class Stage:
             if not loaded.edited(self._project, sources):
                 self._released = sources
                 loaded.release(self._project, sources)
+
+    def free_source(self, source: str, titles: Iterable[str]) -> str:
+        """Return the name of the input for those of layers with some titles, with a number if
+        layers of an earlier run have these names.
+        """
+        titles = list(titles)
+        numbered = (source, *(f"{source} ({number})" for number in range(2, 10_000)))
+        free = (name for name in numbered if not {f"{name}: {t}" for t in titles} & self._names)
+        return next(free, source)
 
     def shows(self, path: str) -> bool:
         """Return whether a layer of the project shows a file already."""

@@ -129,6 +129,11 @@ def groups():
     }
 
 
+def title_of(layer):
+    """Return the name of a layer, or of its node, without that of the input."""
+    return layer.name().partition(": ")[2] or layer.name()
+
+
 class Scene:
     def __init__(self, folder, suffix):
         self.path = folder / f"scene{suffix}"

@@ -13,7 +13,7 @@ from qgis.core import (
     QgsProviderRegistry,
     QgsRasterLayer,
 )
-from support import Log, write_scene
+from support import Log, title_of, write_scene
 
 NAME = "bareearth:classifytiles"
 
@@ -163,7 +163,7 @@ def test_each_file_gets_its_own_rasters_and_one_layer_shows_them(
     assert [part.name for part in parts] == [f"{number}.tif" for number in range(4)]
     rasters = (layer for layer in project.mapLayers().values() if isinstance(layer, QgsRasterLayer))
     # Beside the classes, where this QGIS shows no points.
-    (layer,) = (raster for raster in rasters if raster.name() != "Classes")
+    (layer,) = (raster for raster in rasters if title_of(raster) != "Classes")
     assert layer.isValid() and layer.name().endswith("Terrain model")
     height, found = layer.dataProvider().sample(QgsPointXY(500_200.5, 5_700_040.5), 1)
     assert found and height == pytest.approx(100 + 0.05 * 200.5 + 0.02 * 40.5, abs=0.02)

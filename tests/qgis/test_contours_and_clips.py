@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from osgeo import gdal
 from qgis.core import QgsProject, QgsVectorLayer
-from support import Log, write_raster
+from support import Log, title_of, write_raster
 
 gdal.UseExceptions()
 
@@ -63,7 +63,7 @@ def test_contour_lines_load_with_index_lines_and_ticks(tmp_path, ending):
     processing.runAndLoadResults("bareearth:contours", values)
     loaded = QgsProject.instance().mapLayers().values()
     (layer,) = (layer for layer in loaded if str(tmp_path) in layer.source())
-    assert layer.name() == "dtm: Contour lines"
+    assert title_of(layer) == "Contour lines"
     rules = layer.renderer().rootRule().children()
     assert [rule.label() for rule in rules] == ["Every 2.5 m", "Every 0.5 m", "Depression"]
     assert rules[2].symbol().symbolLayer(0).layerType() == "HashLine"

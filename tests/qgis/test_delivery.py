@@ -19,7 +19,7 @@ from qgis.core import (
     QgsVectorLayer,
 )
 from qgis.PyQt.QtWidgets import QLineEdit
-from support import Log, remove
+from support import Log, remove, title_of
 
 from bare_earth.algorithms.delivery.deliveries import DELIVERIES
 
@@ -44,7 +44,7 @@ def deliver(scene, tmp_path, context):
 
 def shown(root):
     """Return the layers of the project from the top, and whether they are visible."""
-    return {node.name(): node.itemVisibilityChecked() for node in root.findLayers()}
+    return {title_of(node): node.itemVisibilityChecked() for node in root.findLayers()}
 
 
 def test_the_dialog_offers_all_deliveries(registry):
@@ -121,7 +121,7 @@ def test_a_delivery_loads_as_a_group_in_order(deliver, scene, tmp_path):
         assert folder in Path(results[name]).parents and Path(results[name]).is_file(), name
     (group,) = root.findGroups()
     assert group.name() == "scene: Flood model"
-    names = [node.name() for node in group.findLayers()]
+    names = [title_of(node) for node in group.findLayers()]
     expected = [
         "Places to review",
         "Contour lines",
@@ -246,12 +246,12 @@ def test_a_second_run_reloads_the_layers(deliver):
     import processing
 
     count = len(project.mapLayers())
-    folder = os.path.dirname(next(iter(project.mapLayersByName("Terrain model"))).source())
+    folder = os.path.dirname(next(iter(project.mapLayersByName("scene: Terrain model"))).source())
     given = {"DELIVERY": "drone-site", "DELIVERY_FOLDER": folder, "DTM_CELL_SIZE": 2}
     source = os.path.join(os.path.dirname(folder), "scene.laz")
     processing.runAndLoadResults(ALL_IN_ONE, {"INPUT": source, **given}, feedback=Log())
     assert len(project.mapLayers()) == count
-    (dtm,) = project.mapLayersByName("Terrain model")
+    (dtm,) = project.mapLayersByName("scene: Terrain model")
     assert dtm.rasterUnitsPerPixelX() == 2.0
 
 

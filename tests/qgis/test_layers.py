@@ -19,7 +19,7 @@ from qgis.core import (
     QgsProject,
     QgsProviderRegistry,
 )
-from support import ALGORITHM, write_scene
+from support import ALGORITHM, title_of, write_scene
 
 COPC = "copc" in QgsProviderRegistry.instance().providerList()
 needs_copc = pytest.mark.skipif(
@@ -65,9 +65,7 @@ def wait_for(condition, seconds=20):
 def test_the_terrain_model_is_marked_as_elevation(load, parameters):
     for _ in range(3):  # again, as what styles the layers must outlive the first time
         load(parameters)
-        (layer,) = QgsProject.instance().mapLayersByName("Terrain model") or (
-            QgsProject.instance().mapLayersByName("scene: Terrain model")
-        )
+        (layer,) = QgsProject.instance().mapLayersByName("scene: Terrain model")
         assert layer.crs().authid() == "EPSG:25832"
         properties = layer.elevationProperties()
         if Qgis.QGIS_VERSION_INT < 32600:
@@ -211,7 +209,7 @@ def test_the_classes_of_many_files_are_shown_as_one_raster(name, output, tmp_pat
         del outputs["OUTPUT"]
     values = {"INPUT_FOLDER": str(tmp_path / "tiles"), **outputs}
     processing.runAndLoadResults(f"bareearth:{name}", values)
-    layers = {layer.name(): layer for layer in project.mapLayers().values()}
+    layers = {title_of(layer): layer for layer in project.mapLayers().values()}
     assert set(layers) == {"Classes", "Terrain model"}
     classes = layers["Classes"]
     assert [code.label for code in classes.renderer().classes()] == ["Ground", "Unclassified"]

@@ -5,7 +5,7 @@ import re
 import pytest
 from osgeo import gdal
 from qgis.core import QgsProcessingOutputLayerDefinition, QgsProject
-from support import ALGORITHM
+from support import ALGORITHM, title_of
 
 from bare_earth import __version__
 
@@ -24,7 +24,7 @@ def run(name, values, outputs, folder):
         for key, file in outputs.items()
     }
     processing.runAndLoadResults(name, {**values, **loaded})
-    return {layer.name(): layer for layer in project.mapLayers().values()}
+    return {title_of(layer): layer for layer in project.mapLayers().values()}
 
 
 @pytest.mark.parametrize("name", OUTPUTS)

@@ -14,7 +14,7 @@ from qgis.core import (
     QgsProcessingOutputLayerDefinition,
     QgsProject,
 )
-from support import Log, layer_of, write_scene
+from support import Log, layer_of, title_of, write_scene
 
 ALL_IN_ONE = "bareearth:pointcloudtoterrain"
 RASTERS = ("DTM", "DSM", "CHM", "HILLSHADE", "CONFIDENCE", "RELIEF")
@@ -244,7 +244,7 @@ def test_layers_are_styled_and_the_terrain_is_shown(scene, tmp_path, context):
     processing.runAndLoadResults(ALL_IN_ONE, {"INPUT": str(scene.path), **outputs})
     (group,) = project.layerTreeRoot().children()
     assert group.name() == "scene: terrain"
-    titles = [child.name() for child in group.children()]
+    titles = [title_of(child) for child in group.children()]
     assert titles == [
         "Contour lines", "Classes", "Confidence", "Local relief", "Canopy height",
         "Surface model", "Terrain model", "Hillshade",

@@ -340,8 +340,11 @@ def test_layers_are_in_order_in_a_window_whatever_layer_is_current(qgis, clouds,
         """,
         cloud=clouds[0].path, algorithm="bareearth:pointcloudtoterrain",
     )  # fmt: skip
-    layers = ["Confidence", "Canopy height", "Surface model", "Terrain model", "Hillshade"]
-    groups = {name: layers for name in ("scene: terrain", "scene: terrain (2)")}
+    titles = ["Confidence", "Canopy height", "Surface model", "Terrain model", "Hillshade"]
+    groups = {
+        "scene: terrain": [f"scene: {title}" for title in titles],
+        "scene: terrain (2)": [f"scene (2): {title}" for title in titles],
+    }
     assert dict(answer["groups"]) == groups and len(answer["groups"]) == 2
 
 
@@ -375,8 +378,11 @@ def test_the_map_of_a_remote_layer_becomes_terrain_in_three_clicks(qgis, tmp_pat
             answer["values"] = dialog.createProcessingParameters()
             answer["layer"] = layer.id()
             dialog.runButton().click()  # the third
-            wait(lambda: project.mapLayersByName("Terrain model"), 120)
-            answer["terrain"] = [one.width() for one in project.mapLayersByName("Terrain model")]
+            def terrain():
+                return project.mapLayersByName("far: Terrain model")
+
+            wait(terrain, 120)
+            answer["terrain"] = [one.width() for one in terrain()]
             answer["log"] = dialog.logText() if hasattr(dialog, "logText") else ""
             """,
             {"PYTHONPATH": str(Path(laspy.__file__).parents[1]),

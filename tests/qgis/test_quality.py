@@ -10,7 +10,7 @@ from qgis.core import (
     QgsVectorLayer,
 )
 from qgis.PyQt.QtGui import QColor
-from support import Log, write_scene
+from support import Log, title_of, write_scene
 
 from bare_earth.plugin.styles import layers
 
@@ -103,7 +103,7 @@ def test_its_rasters_are_layers_of_one_group_with_colours_and_legends(strips, tm
     processing.runAndLoadResults(ALGORITHM, {**words, "FOLDER": str(tmp_path / "rasters")})
     (group,) = QgsProject.instance().layerTreeRoot().children()
     assert group.name() == "in: quality"
-    visible = {child.name(): child.itemVisibilityChecked() for child in group.children()}
+    visible = {title_of(child): child.itemVisibilityChecked() for child in group.children()}
     assert list(visible) == [
         "Voids of the ground", "Differences between strips", "Overlap of strips",
         "Density of first returns", "Density of ground points", "Density of low vegetation",
@@ -112,7 +112,7 @@ def test_its_rasters_are_layers_of_one_group_with_colours_and_legends(strips, tm
     assert [name for name, is_shown in visible.items() if is_shown] == [
         "Voids of the ground", "Differences between strips", "Density of first returns",
     ]  # fmt: skip
-    named = {child.name(): child.layer() for child in group.children()}
+    named = {title_of(child): child.layer() for child in group.children()}
     differences = named["Differences between strips"]
     assert colour_at(differences, 60, 60).name() == "#f0c93a"  # 0.1 m
     limits = ["\u2264 0.08", "0.08 \u2013 0.16", "> 0.16"]

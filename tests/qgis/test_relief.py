@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from osgeo import gdal
 from qgis.core import QgsProject, QgsRasterLayer
-from support import Log, write_raster
+from support import Log, title_of, write_raster
 
 from bare_earth.algorithms.tools.relief import KINDS
 from bare_earth.plugin.styles import layers
@@ -59,7 +59,7 @@ def test_the_layers_have_their_styles_and_names(terrain, tmp_path):
     kinds = list(KINDS)
     parameters = {"INPUT": terrain, "KINDS": kinds, "OUTPUT_FOLDER": str(tmp_path / "relief")}
     processing.runAndLoadResults(ALGORITHM, parameters)
-    layers = {layer.name(): layer for layer in QgsProject.instance().mapLayers().values()}
+    layers = {title_of(layer): layer for layer in QgsProject.instance().mapLayers().values()}
     assert len(layers) == len(kinds)
     assert layers["Red relief image map"].renderer().type() == "multibandcolor"
     assert layers["Archaeological topography (VAT)"].renderer().type() == "singlebandgray"

@@ -22,7 +22,7 @@ from qgis.core import (
     QgsVectorLayer,
 )
 from qgis.PyQt.QtCore import QVariant
-from support import ALGORITHM, Log, colour_at, groups, layer_of, write_scene
+from support import ALGORITHM, Log, colour_at, groups, layer_of, title_of, write_scene
 
 from bare_earth.plugin.styles import loaded
 from bare_earth.plugin.styles.stage import Stage
@@ -56,11 +56,11 @@ def run(context):
 def by_name():
     layers = QgsProject.instance().mapLayers().values()
     assert len({layer.name() for layer in layers}) == len(layers)
-    return {layer.name(): layer for layer in layers}
+    return {title_of(layer): layer for layer in layers}
 
 
 def names_in_groups():
-    return {name: [child.name() for child in children] for name, children in groups().items()}
+    return {name: [title_of(child) for child in children] for name, children in groups().items()}
 
 
 def lift(path, metres):

@@ -5,7 +5,7 @@ import time
 from pathlib import Path
 
 import pytest
-from qgis.core import QgsProject, QgsRasterLayer
+from qgis.core import QgsProcessingOutputLayerDefinition, QgsProject, QgsRasterLayer
 from support import ALGORITHM
 
 SLOPE, TERRAIN, REVIEW = "bareearth:slopefilter", "bareearth:terrainmodel", "bareearth:review"
@@ -112,6 +112,35 @@ def test_runs_with_other_settings_or_sources_are_told_apart(
     for found in (town, other):
         values = {"INPUT": first["EXPECTED_ERROR"], "DTM": found["DTM"]}
         assert "choose both from one run" in refused(registry, context, **values)
+
+
+def test_layers_have_the_names_of_their_source_and_run(scene, context, tmp_path):
+    import processing
+
+    project, other = QgsProject.instance(), tmp_path / "other.laz"
+    other.write_bytes(scene.path.read_bytes())
+    # Several layers, which are a group; a single one; and the same source, by other settings.
+    rasters = ("DTM", "EXPECTED_ERROR")
+    runs = (
+        (ALGORITHM, scene.path, rasters), (ALGORITHM, other, rasters), (SLOPE, scene.path, rasters),
+        (ALGORITHM, scene.path, rasters[1:]),
+    )  # fmt: skip
+    for number, (algorithm, source, names) in enumerate(runs):
+        outputs = {name: str(tmp_path / f"{name}{number}.tif") for name in names}
+        loading = {
+            name: QgsProcessingOutputLayerDefinition(path, project)
+            for name, path in outputs.items()
+        }
+        cloud = str(tmp_path / f"points{number}.las")
+        values = {"INPUT": str(source), "OUTPUT": cloud, **loading}
+        processing.runAndLoadResults(algorithm, values)
+    names = [layer.name() for layer in project.mapLayers().values()]
+    assert {name for name in names if "Expected error" in name} == {
+        "scene: Expected error", "other: Expected error", "scene (2): Expected error",
+        "scene (3): Expected error",
+    }  # fmt: skip
+    assert len(set(names)) == len(names)
+    assert {"scene: Terrain model", "scene (2): Terrain model"} <= set(names)
 
 
 def test_what_belongs_together_or_is_not_known_is_accepted(run, scene, registry, context):

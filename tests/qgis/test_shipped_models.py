@@ -15,7 +15,7 @@ from qgis.core import (
     QgsProviderRegistry,
     QgsVectorLayer,
 )
-from support import ROOT
+from support import ROOT, title_of
 
 gdal.UseExceptions()
 
@@ -173,7 +173,7 @@ def test_their_layers_are_a_group_with_names_and_colours(
     processing.runAndLoadResults(f"bareearth:{name}", {"INPUT": str(scene.path), **outputs})
     (tree,) = project.layerTreeRoot().children()
     assert tree.name() == f"scene: {group}"
-    layers = {child.name(): child for child in tree.children()}
+    layers = {title_of(child): child for child in tree.children()}
     assert sorted(layers) == sorted(titles)
     assert [layer for layer in layers if not layer.startswith("Hillshade, ")] == [
         words for words in titles if not words.startswith("Hillshade, ")

@@ -19,7 +19,7 @@ from qgis.core import (
 )
 from qgis.PyQt.QtCore import Qt
 from qgis.PyQt.QtGui import QPainter
-from support import ALGORITHM, colour_at, groups, remove, write_scene
+from support import ALGORITHM, colour_at, groups, remove, title_of, write_scene
 
 from bare_earth import Progress
 from bare_earth.algorithms.core.points import Points
@@ -51,7 +51,7 @@ def run(context):
 def tree():
     """Return the groups and layers of the project, from above."""
     return {
-        name: [(child.name(), child.itemVisibilityChecked()) for child in children]
+        name: [(title_of(child), child.itemVisibilityChecked()) for child in children]
         for name, children in groups().items()
     }
 
@@ -221,7 +221,7 @@ def test_a_run_is_a_group_in_a_sensible_order_and_shows_one_theme(run, scene, tm
         ("Classes", True), ("Terrain model", False), ("Hillshade", True),
     ]  # fmt: skip
     assert tree() == {"scene: TIN densification": expected}
-    assert {layer.name() for layer in QgsProject.instance().mapLayers().values()} == {
+    assert {title_of(layer) for layer in QgsProject.instance().mapLayers().values()} == {
         name for name, _ in expected
     }
 
@@ -243,7 +243,7 @@ def test_no_raster_is_bare_and_grey(run, scene, tmp_path):
     names = ("DTM", "DSM", "CHM", "HILLSHADE", "CONFIDENCE")
     outputs = {key: tmp_path / f"{key}.tif" for key in names}
     run("bareearth:terrainmodel", {"INPUT": ground}, outputs)
-    layers = {layer.name(): layer for layer in QgsProject.instance().mapLayers().values()}
+    layers = {title_of(layer): layer for layer in QgsProject.instance().mapLayers().values()}
     kinds = {name: shown.renderer().type() for name, shown in layers.items()}
     assert kinds.pop("Hillshade") == "singlebandgray"
     assert len(kinds) == 4 and set(kinds.values()) == {"singlebandpseudocolor"}
@@ -282,7 +282,7 @@ def test_legends_say_what_is_shown_and_its_unit(run, scene, tmp_path, monkeypatc
     for layer in project.mapLayers().values():
         node = project.layerTreeRoot().findLayer(layer.id())
         texts = [entry.data(Qt.ItemDataRole.DisplayRole) for entry in model.layerLegendNodes(node)]
-        told[layer.name()] = texts
+        told[title_of(layer)] = texts
     assert "Ground" in told.pop("Classes")
     # Grey values of a hillshade mean nothing.
     assert told.pop("Hillshade") == []
@@ -321,7 +321,7 @@ def test_every_fifth_contour_line_has_its_height_as_a_label(run, tmp_path):
     values = {"INPUT": str(tmp_path / "scene.las"), "CONTOUR_INTERVAL": 0.2}
     run("bareearth:pointcloudtoterrain", values, outputs)
     layers = QgsProject.instance().mapLayers().values()
-    (layer,) = (shown for shown in layers if shown.name() == "Contour lines")
+    (layer,) = (shown for shown in layers if title_of(shown) == "Contour lines")
     assert layer.labelsEnabled()
     (rule,) = layer.labeling().rootRule().children()
     context = QgsExpressionContext()
@@ -380,7 +380,7 @@ def test_a_layer_tells_which_rule_decided_each_cell(run, scene, tmp_path, name):
     assert results["EXPLANATION"] == str(tmp_path / "rules.tif")
     (group,) = tree().values()
     assert ("Deciding rules", False) in group  # the classes hide it at first
-    (layer,) = project.mapLayersByName("Deciding rules")
+    (layer,) = project.mapLayersByName("scene: Deciding rules")
     assert layer.renderer().type() == "paletted"
     categories = {entry.value: entry for entry in layer.renderer().classes()}
     codes = gdal.Open(str(tmp_path / "rules.tif")).ReadAsArray()

@@ -9,7 +9,7 @@ from qgis.core import (
     QgsProcessingException,
     QgsProject,
 )
-from support import Log, layer_of, write_scene
+from support import Log, layer_of, title_of, write_scene
 
 ALGORITHM, CLASSES = "bareearth:water", "bareearth:waterclasses"
 
@@ -40,7 +40,7 @@ def test_a_lake_is_found_and_drawn_in_blue(registry, cloud, tmp_path):
     results = processing.runAndLoadResults(ALGORITHM, {"INPUT": str(cloud), **outputs})
     assert results["LAKES"] == 1 and results["RIVERS"] == 0
     assert results["AREA"] == pytest.approx(np.pi * 54**2, rel=0.03)
-    layers = {layer.name(): layer for layer in QgsProject.instance().mapLayers().values()}
+    layers = {title_of(layer): layer for layer in QgsProject.instance().mapLayers().values()}
     (water,) = layers["Water"].getFeatures()
     assert water["LEVEL"] == pytest.approx(50.1, abs=0.15) and water["GRADE"] == "certain"
     assert water.geometry().area() == pytest.approx(results["AREA"], rel=0.02)
