@@ -21,8 +21,10 @@ _FUNCTIONS = ("tr", "mark")
 
 
 def written_texts() -> set[str]:
-    """Return the texts that the code of the plugin asks for by name, and those of rasters."""
-    found = _raster_texts()
+    """Return the texts that the code of the plugin asks for by name, of rasters and of reviews."""
+    from bare_earth.algorithms.tools.review import reasons
+
+    found = _raster_texts() | set(reasons.TEXTS)
     for path in (ROOT / "plugin").rglob("*.py"):
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
             if isinstance(node, ast.Call) and getattr(node.func, "id", "") in _FUNCTIONS:

@@ -17,6 +17,7 @@ from qgis.PyQt.QtWidgets import (
 )
 
 from ..i18n import mark, tr
+from ..styles.reasons import in_own_language
 from ..styles.vectors import ANSWERS
 from .session import GROUND, NOT_GROUND, RIGHT, SKIP, Place, Session
 
@@ -122,7 +123,8 @@ class Panel(QWidget):
             )
             return
         self._title.setText(tr("Place {} of {}").format(session.number + 1, count))
-        self.reason.setText(f"{place.reason[:1].upper()}{place.reason[1:]}")
+        reason = in_own_language(place.reason)
+        self.reason.setText(f"{reason[:1].upper()}{reason[1:]}")
         self._figures.setText(_figures_of(place))
 
 

@@ -26,6 +26,7 @@ from ...algorithms.tools.check.results import COLOURS, NOT_COUNTED, limits_of
 from ...algorithms.tools.contours import INDEX, Interval
 from .. import compat
 from ..i18n import mark, tr
+from .reasons import in_own_language
 
 _THIN = {"line_color": "110,72,36,160", "line_width": "0.2"}
 _THICK = {"line_color": "110,72,36,220", "line_width": "0.35"}
@@ -48,6 +49,7 @@ ANSWERS = {
     "ground": (mark("Ground"), "#7a4a1e"),
     "skip": (mark("Skipped"), "#7d8794"),
 }
+_MOST_REASONS = 10_000  # that a project file holds in two languages
 # Of the labels: colours of text and halo.
 _TEXT = (96, 60, 28)
 _HALO = (255, 255, 255, 200)
@@ -138,16 +140,27 @@ def places(layer: QgsVectorLayer) -> None:
     layer.setRenderer(QgsRuleBasedRenderer(root))
     layer.setLabeling(QgsVectorLayerSimpleLabeling(_rank()))
     layer.setLabelsEnabled(True)
-    layer.setDisplayExpression('"RANK" || \': \' || "REASON"')
+    layer.setDisplayExpression('"RANK" || \': \' || represent_value("REASON")')
     choices = [{tr(text): answer} for answer, (text, _) in ANSWERS.items() if answer]
     classes = [{tr("Ground"): 2}, {tr("Not ground"): 1}, {tr("Low noise"): 7}, {tr("Water"): 9}]
     fields, form = layer.fields(), layer.editFormConfig()
     for number in range(fields.count()):
-        form.setReadOnly(number, fields[number].name() not in (ANSWER_FIELD, CLASS_FIELD))
+        form.setReadOnly(number, fields[number].name().lower() not in (ANSWER_FIELD, CLASS_FIELD))
     layer.setEditFormConfig(form)
-    for name, values in ((ANSWER_FIELD, choices), (CLASS_FIELD, classes)):
+    shown = {ANSWER_FIELD: choices, CLASS_FIELD: classes}
+    if reasons := _reasons(layer):
+        shown["REASON"] = reasons
+    for name, values in shown.items():
         widget = QgsEditorWidgetSetup("ValueMap", {"map": values})
         layer.setEditorWidgetSetup(fields.lookupField(name), widget)
+
+
+def _reasons(layer: QgsVectorLayer) -> list[dict[str, str]]:
+    """Return the reasons in a layer by what is shown for them; none if this is the same."""
+    values = layer.uniqueValues(layer.fields().lookupField("REASON"), _MOST_REASONS)
+    texts = sorted(str(value) for value in values if not compat.is_null(value))
+    shown = [{in_own_language(text): text} for text in texts]
+    return shown if any({text: text} != one for text, one in zip(texts, shown)) else []
 
 
 def low_confidence(layer: QgsVectorLayer) -> None:

@@ -1,7 +1,10 @@
 import numpy as np
 import pytest
-from qgis.core import QgsVectorLayer
+from qgis.core import QgsExpression, QgsExpressionContext, QgsExpressionContextUtils, QgsVectorLayer
+from qgis.PyQt.QtCore import QCoreApplication, QTranslator
 from support import write_raster
+
+from bare_earth.algorithms.tools.review.reasons import TEXTS, parts_of
 
 ALGORITHM = "bareearth:review"
 
@@ -82,3 +85,78 @@ def test_the_layer_shows_the_reason_and_asks_for_a_class(registry, error, tmp_pa
     field = layer.fields().lookupField("class")
     assert layer.editorWidgetSetup(field).type() == "ValueMap"
     assert "REASON" in layer.displayExpression()
+
+
+GERMAN = {
+    "a large expected error": "ein großer erwarteter Fehler",
+    "{rise} of relief": "{rise} Relief",
+    "beside water or the border of the survey": "neben Wasser oder dem Rand",
+}
+
+
+class German(QTranslator):
+    """Translates the parts of a reason."""
+
+    def translate(self, context, text, disambiguation=None, n=-1):
+        return GERMAN.get(text)
+
+
+@pytest.fixture
+def german():
+    translator = German()
+    QCoreApplication.installTranslator(translator)
+    yield
+    QCoreApplication.removeTranslator(translator)
+
+
+def shown_for(layer, feature):
+    """Return what the list of features of a layer shows for one of them."""
+    context = QgsExpressionContext(QgsExpressionContextUtils.globalProjectLayerScopes(layer))
+    context.setFeature(feature)
+    return QgsExpression(layer.displayExpression()).evaluate(context)
+
+
+def reviewed(registry, error, tmp_path, context, log):
+    from bare_earth.plugin.styles import layers
+
+    dtm = write_raster(tmp_path / "dtm.tif", np.tile(np.arange(80.0) / 10, (60, 1)))
+    places = str(tmp_path / "places.gpkg")
+    parameters = {"INPUT": error, "DTM": dtm, "LEAST_ERROR": 0.5, "OUTPUT": places}
+    _, done = registry.createAlgorithmById(ALGORITHM).run(parameters, context, log)
+    assert done, log.text
+    layer = places_of(places)
+    layers.look_of("places").dress(layer)
+    return layer
+
+
+def test_reasons_are_shown_in_german_and_kept_in_english(
+    registry, german, error, tmp_path, context, log
+):
+    from bare_earth.plugin.review.panel import Panel
+    from bare_earth.plugin.review.session import Session
+
+    layer = reviewed(registry, error, tmp_path, context, log)
+    feature = next(layer.getFeatures())
+    assert feature["REASON"] == "a large expected error, 1.90 m of relief"
+    assert shown_for(layer, feature) == "1: ein großer erwarteter Fehler, 1.90 m Relief"
+    panel = Panel()
+    panel.show_session(Session(layer))
+    assert panel.reason.text() == "Ein großer erwarteter Fehler, 1.90 m Relief"
+
+
+def test_in_english_reasons_are_shown_as_they_are(registry, error, tmp_path, context, log):
+    layer = reviewed(registry, error, tmp_path, context, log)
+    feature = next(layer.getFeatures())
+    assert shown_for(layer, feature) == f"1: {feature['REASON']}"
+    # A reason in the user's own words stays as it is.
+    assert parts_of("a large tree") == []
+
+
+@pytest.mark.parametrize("end", ["", ", beside water or the border of the survey"])
+def test_the_parts_of_all_reasons_are_found(end):
+    for text in TEXTS[:-2]:
+        for relief in ("", ", 1,234.50 ft of relief"):
+            reason = text.format(width="12 m", error="0.31 m") + relief + end
+            parts = parts_of(reason)
+            assert parts[0][0] == text
+            assert ", ".join(part.format(**figures) for part, figures in parts) == reason

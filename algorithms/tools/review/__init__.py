@@ -25,8 +25,9 @@ from ..contours import corners_of
 from ..declaration import RASTER, TERRAIN, FileTool, Input, Output
 from .answered import FIELDS, carried_over, changes_of, sorted_by_answers
 from .page import SHOWN, review_html
-from .places import CAUSES, PlaceToReview, Rasters, Review, places_of
+from .places import PlaceToReview, Rasters, Review, places_of
 from .profile import ProfilePoints, line_of, points_along
+from .reasons import CAUSES
 
 
 @dataclass(frozen=True)

@@ -9,9 +9,9 @@ from typing import Iterator, NamedTuple
 import numpy as np
 
 from ...core.parameters import ParameterSet, parameter
-from ...grids.expected_error import Evidence
 from ...grids.isolines import rings_of
 from ...report.units import Units
+from .reasons import Figures, reason_of
 
 # Places end at the lines of a square grid of this side in metres, so that one can be looked at as a
 # whole: a forest would be a single place.
@@ -22,21 +22,6 @@ _USUAL = 0.95
 _LEAST = 0.3
 # Errors and weights that differ by this share are equal: last bits depend on the processor.
 _SAME = 1e-6
-# Of a place beside cells without a value.
-_BORDER = "beside water or the border of the survey"
-# By the piece of evidence with the largest share in the expected error; {rise} is the difference
-# between the lowest and the highest cell, {width} that of the gap, {error} the expected error.
-_REASONS = {
-    "holes": "hardly any ground under plants or on roofs, {rise} of relief",
-    "roughness": "rough ground: a step, rocks or plants that were kept as ground, {rise} of relief",
-    "slope": "steep ground, {rise} of relief",
-    "gap": "a gap of {width} without ground",
-    "gap_at_step": "a gap of {width} without ground, beside a step or a slope",
-    "doubtful": "plants or ground: low points were not taken for ground, up to {error} off",
-    "low_plants": "low plants: the ground may be up to {error} too high",
-}
-CAUSES = len(_REASONS)  # numbers from 1 on; 0 is none
-_UNKNOWN = "a large expected error, {rise} of relief"
 
 
 @dataclass(frozen=True)
@@ -184,24 +169,15 @@ def _reason(
     """Return in words why the expected error of a place is large."""
     from scipy import ndimage
 
-    words = _UNKNOWN
+    cause = 0
     if rasters.cause is not None:
         causes = np.where(cells, rasters.cause[window], 0).astype(np.intp)
-        shares = np.bincount(causes.ravel(), errors.ravel())
-        number = _first_of_largest(shares)
-        if number:
-            words = _REASONS[Evidence._fields[number - 1]]
-    if math.isnan(rise):
-        words = words.replace(", {rise} of relief", "")
+        cause = _first_of_largest(np.bincount(causes.ravel(), errors.ravel()))
     inner = ndimage.distance_transform_edt(np.pad(cells, 1)).max()
-    said = words.format(
-        rise=units.height(rise),
-        width=units.length(round(2.0 * float(inner) * rasters.cell)),
-        error=units.height(float(errors.max())),
-    )
+    width = round(2.0 * float(inner) * rasters.cell)
     around = tuple(slice(max(part.start - 1, 0), part.stop + 1) for part in window)
     is_border = any(
         part.start == 0 or part.stop == whole for part, whole in zip(window, rasters.error.shape)
     )
     is_border = is_border or bool(np.isnan(rasters.error[around]).any())
-    return f"{said}, {_BORDER}" if is_border else said
+    return reason_of(cause, Figures(rise, width, float(errors.max())), is_border, units)
