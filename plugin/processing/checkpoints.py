@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from qgis.core import (
@@ -11,16 +13,18 @@ from qgis.core import (
     QgsPoint,
     QgsProcessingAlgorithm,
     QgsProcessingContext,
+    QgsProcessingFeatureSourceDefinition,
     QgsProcessingParameterFeatureSource,
     QgsProcessingUtils,
     QgsProviderRegistry,
     QgsVectorLayer,
 )
 
+from ...algorithms.core.errors import BareEarthError
 from ...algorithms.core.progress import Progress
 from ...algorithms.tools.check.checkpoints import Checkpoints
 from ...algorithms.tools.check.reading import Record, checkpoints_of_rows, read_checkpoints
-from ...algorithms.tools.check.tables import SUFFIXES
+from ...algorithms.tools.check.tables import SUFFIXES, read_table
 from .. import compat
 from ..i18n import mark, tr
 from ..styles.loaded import filter_of, has_edits
@@ -88,6 +92,22 @@ def checkpoints_of(
     if not records:
         raise Refusal(mark('The layer "{}" holds no point. Choose one that does.'), "Checkpoints")
     return checkpoints_of_rows(names, records, chosen, source.sourceName()), {}
+
+
+def names_in(value: Any, context: QgsProcessingContext) -> list[str]:
+    """Return the names of the columns or attributes of a value of the field; none if it cannot be
+    read.
+    """
+    if isinstance(value, QgsProcessingFeatureSourceDefinition):
+        value = value.source.staticValue()
+    path, layer = _table_of(value, context), value
+    if path is not None:
+        with suppress(BareEarthError):  # the run tells it
+            return read_table(path).columns
+        return []
+    if isinstance(value, str) and value:
+        layer = QgsProcessingUtils.mapLayerFromString(value, context)
+    return layer.fields().names() if isinstance(layer, QgsVectorLayer) else []
 
 
 def _file_of(value: object) -> Path | None:

@@ -54,7 +54,8 @@ from .remote import LAYER_HELP, Remote
 from .runs import MADE_AS
 from .stated_crs import text_of
 
-# As a name, so that the widget is imported only in dialogs, not in qgis_process.
+# As names, so that widgets are imported only in dialogs, not in qgis_process.
+_ATTRIBUTE_WIDGET = f"{__package__}.attribute_widget.AttributeWidget"
 _RASTER_WIDGET = f"{__package__}.layer_widgets.RasterWidget"
 # Errors for rasters that are not files, by the names of their inputs.
 _NO_FILES = {
@@ -145,9 +146,13 @@ def add_input(algorithm: BareEarthAlgorithm, declared: Input) -> None:
         field = makers[declared.kind]()
     if declared.advanced:
         field.setFlags(field.flags() | compat.ADVANCED)
+    metadata = field.metadata()
     if declared.made_as:
         widget = {"widget_wrapper": {"class": _RASTER_WIDGET}} if declared.kind == "raster" else {}
-        field.setMetadata({**field.metadata(), **widget, MADE_AS: declared.made_as})
+        metadata = {**metadata, **widget, MADE_AS: declared.made_as}
+    elif declared.kind == "attribute" and _ATTRIBUTES[name][1] == "CHECKPOINTS":
+        metadata = {**metadata, "widget_wrapper": {"class": _ATTRIBUTE_WIDGET}}
+    field.setMetadata(metadata)
     algorithm.addParameter(field, with_note(declared.help, helps.get(declared.kind, "")))
 
 

@@ -196,6 +196,32 @@ def test_text_files_are_checkpoints(registry, cloud, rows, tmp_path, context, na
     remove(dialog)
 
 
+@pytest.mark.parametrize("tool", [ALGORITHM, "bareearth:pointcloudtoterrain"])
+def test_the_columns_of_a_text_file_can_be_chosen_and_nothing_is_said_of_it(
+    dialog_of, rows, tmp_path, context, tool
+):
+    dialog = dialog_of(tool)
+    fields = dialog.mainWidget().wrappers
+    box = fields["Z_FIELD"].wrappedWidget()
+
+    def choices():
+        return [box.itemText(place) for place in range(box.count())]
+
+    path = write_text(tmp_path / "points.txt", rows)
+    fields["CHECKPOINTS"].setParameterValue(path, context)
+    assert [item.text() for item in dialog.messageBar().items()] == []
+    assert choices() == ["", "id", "E", "N", "H", "class"]
+    assert fields["Z_FIELD"].parameterValue() is None
+    box.setCurrentIndex(4)
+    assert fields["Z_FIELD"].parameterValue() == "H"
+    without = tmp_path / "numbers.xyz"
+    without.write_text("1 2 3\n4 5 6\n", encoding="utf-8")
+    fields["CHECKPOINTS"].setParameterValue(str(without), context)
+    assert choices() == ["", "1", "2", "3"] and fields["Z_FIELD"].parameterValue() == "H"
+    fields["CHECKPOINTS"].setParameterValue(layer_of(rows, tmp_path), context)
+    assert choices() == ["", "label", "up", "land"]
+
+
 @pytest.mark.parametrize("is_filtered", [False, True])
 def test_a_table_without_geometry_is_checkpoints(registry, cloud, rows, tmp_path, is_filtered):
     table = write_text(tmp_path / "points.csv", rows, ",")

@@ -48,10 +48,9 @@ def read_checkpoints(path: Any, columns: str | None = None, crs: str | None = No
     usual = None
     if suffix in SUFFIXES:
         table = read_table(path)
-        stated, width = stated_wkt(table.crs), max(map(len, table.rows))
+        stated, names = stated_wkt(table.crs), table.columns
         if table.names is None:
             usual = places_without_names(table.rows)
-        names = table.names or [str(number) for number in range(1, width + 1)]
         records = [
             Record(f"Line {number} of {path}", (*row, *[""] * (len(names) - len(row))))
             for number, row in zip(table.numbers, table.rows)

@@ -40,6 +40,12 @@ class Table(NamedTuple):
     numbers: list[int]  # the line of each row in the file
     crs: str | None = None  # that it states
 
+    @property
+    def columns(self) -> list[str]:
+        """The names of the columns, or their numbers from 1 on."""
+        width = max(map(len, self.rows))
+        return [*(self.names or map(str, range(1, width + 1)))]
+
 
 class _Line(NamedTuple):
     """A line of a file that is not empty."""
