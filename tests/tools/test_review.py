@@ -10,6 +10,7 @@ from surveys import write_points
 import bare_earth
 from bare_earth import BareEarthError
 from bare_earth.algorithms.cli import main
+from bare_earth.algorithms.rasters import content, windows
 from bare_earth.algorithms.report.units import Units
 from bare_earth.algorithms.tools.review.places import Rasters, Review, places_of
 
@@ -244,3 +245,21 @@ def test_one_run_classifies_and_makes_the_places_with_carried_answers(rasters, t
     bare_earth.terrain(tmp_path / "b.laz", places=tmp_path / "t.geojson", **how)
     content = json.loads((tmp_path / "t.geojson").read_text(encoding="utf-8"))
     assert len(content["features"]) == len(found)
+
+
+def test_rasters_that_do_not_fit_into_memory_are_read_in_parts(rasters, tmp_path, monkeypatch):
+    def made(name):
+        files = [tmp_path / f"{name}{ending}" for ending in (".geojson", ".html")]
+        summary = bare_earth.review(
+            rasters / "expected_error.tif", files[0], page=files[1], dtm=rasters / "dtm.tif",
+            cause=rasters / "error_cause.tif", earlier=rasters / "dtm.tif",
+            least_area=1.0,
+        )  # fmt: skip
+        return summary, [file.read_text(encoding="utf-8") for file in files]
+
+    summary, whole = made("whole")
+    monkeypatch.setattr(content, "MOST_CELLS", 5000)
+    monkeypatch.setattr(windows, "_CELLS", 1500)
+    in_parts, parts = made("parts")
+    assert in_parts == summary and parts == whole
+    assert summary.place_count > 2 and "the same as in the run before" in summary.text

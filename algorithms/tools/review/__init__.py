@@ -13,9 +13,10 @@ from ...classes.corrections import NO_CORRECTIONS, SKIP, Corrections
 from ...core.errors import BareEarthError
 from ...core.progress import SILENT, Progress
 from ...core.words import counted
-from ...grids.expected_error import expected_rmse
-from ...rasters.content import Source
+from ...grids.expected_error import ExpectedAccuracy
+from ...rasters.content import NO_CELLS, Source
 from ...rasters.geotiff import Raster, read_raster
+from ...rasters.windows import RasterWindows, Windows, strips_of
 from ...report.units import Units
 from ...survey.area import Polygon
 from ...survey.feature_files import Feature, Layer, feature_writer
@@ -91,16 +92,19 @@ def review(
     """Write the places of a terrain model with a large expected error, which is a raster, as
     polygons and on a page.
     """
-    raster = read_raster(source)
-    raster.tell(progress)
+    raster = read_raster(source, window=NO_CELLS)
     rasters, before = _rasters(raster, dtm, cause, earlier)
     units = Units(raster.frame.horizontal_unit, raster.frame.vertical_unit)
-    known = np.isfinite(rasters.error)
-    if not known.any():
+    limit = how.limit(rasters.error)
+    expected, over = ExpectedAccuracy(), 0
+    for _, error in strips_of(rasters.error):
+        expected.add(error)
+        over += int(np.count_nonzero(error > limit))
+    raster.tell(progress)
+    if not expected.count:
         raise BareEarthError(f"{source} has no expected error. Give the raster of one.")
     progress(0.2)
     answered = (corrections or NO_CORRECTIONS).located(Place(str(source), raster.crs), progress)
-    limit = how.limit(rasters.error)
     found, small = places_of(rasters, how, limit, units)
     unanswered, is_answered = sorted_by_answers(found, raster, answered)
     chosen = unanswered[: how.most_places]
@@ -108,10 +112,10 @@ def review(
     progress(0.5)
     total = sum(place.weight for place in unanswered)
     summary = ReviewSummary(
-        int(np.count_nonzero(known)),
-        round(expected_rmse(rasters.error), 4),
+        expected.count,
+        round(expected.rmse, 4),
         round(limit, 4),
-        int(np.count_nonzero(rasters.error[known] > limit)),
+        over,
         len(chosen),
         len(unanswered) - len(chosen),
         small,
@@ -142,13 +146,13 @@ def review(
 
 def _rasters(
     raster: Raster, dtm: Source | None, cause: Source | None, earlier: Source | None
-) -> tuple[Rasters, np.ndarray | None]:
+) -> tuple[Rasters, Windows | None]:
     """Return the values of rasters that must have the same cells, and the earlier terrain."""
     width, height = raster.cell_metres
     if not np.isclose(width, height):
         raise BareEarthError(f"{raster.source} has cells that are no squares. Resample it.")
     terrain, causes, before = (
-        None if one is None else read_raster(one) for one in (dtm, cause, earlier)
+        None if one is None else read_raster(one, window=NO_CELLS) for one in (dtm, cause, earlier)
     )
     for one in (terrain, causes, before):
         if one is not None and (one.whole, one.geotransform) != (raster.whole, raster.geotransform):
@@ -158,20 +162,19 @@ def _rasters(
             )
     if before is not None and terrain is None:
         raise BareEarthError("Give the terrain model too, which is compared with the earlier one.")
-    numbers = None if causes is None else np.nan_to_num(causes.heights)
-    if numbers is not None and ((numbers < 0) | (numbers > CAUSES) | (numbers % 1 > 0)).any():
-        raise BareEarthError(f"{cause} holds no causes of an expected error. Give such a raster.")
-    found = Rasters(
-        raster.heights * np.float32(raster.frame.vertical_unit),
-        None if terrain is None else _in_metres(terrain),
-        numbers,
-        width,
+    numbers = None if causes is None else RasterWindows(causes)
+    for _, some in () if numbers is None else strips_of(numbers):
+        if ((some < 0) | (some > CAUSES) | (some % 1 > 0)).any():
+            raise BareEarthError(
+                f"{cause} holds no causes of an expected error. Give such a raster."
+            )
+    in_metres = (
+        None if one is None else RasterWindows(one, one.frame.vertical_unit)
+        for one in (terrain, before)
     )
-    return found, None if before is None else _in_metres(before)
-
-
-def _in_metres(raster: Raster) -> np.ndarray:
-    return raster.heights * np.float32(raster.frame.vertical_unit)
+    of_terrain, of_before = in_metres
+    error = RasterWindows(raster, raster.frame.vertical_unit)
+    return Rasters(error, of_terrain, numbers, width), of_before
 
 
 def _features(

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Any, Iterator, Mapping, NamedTuple, Sequence
+from typing import Any, Iterable, Iterator, Mapping, NamedTuple, Sequence
 
 import numpy as np
 
 from ...classes.corrections import SKIP, Corrections
 from ...core.words import counted
 from ...rasters.geotiff import Raster
+from ...rasters.windows import Windows, strips_of
 from ...survey.area import Area, Polygon
 from ...survey.feature_files import Feature
 from ...survey.vector_files import ANSWER_FIELD, CLASS_FIELD
@@ -117,23 +118,33 @@ class Change(NamedTuple):
 
 
 def changes_of(
-    rasters: Rasters, before: np.ndarray, raster: Raster, corrections: Corrections
+    rasters: Rasters, before: Windows, raster: Raster, corrections: Corrections
 ) -> list[Change]:
     """Return what changed in all cells, and in each place whose answer changes classes."""
-    terrain = np.zeros_like(before) if rasters.terrain is None else rasters.terrain
-    rises = np.nan_to_num(terrain - before)
-    found = [_change("all cells", "", rises, rasters.cell)]
+    rises = _Rises(rasters.terrain, before)
+    found = [_change("all cells", "", (strip for _, strip in strips_of(rises)), rasters.cell)]
     polygons, codes, numbers = corrections.effects
     for polygon, code, number in zip(polygons, codes, numbers):
         rank = corrections.values[number].get("RANK", number + 1)
         answer = corrections.answers[number] or f"class {code}"
-        found.append(
-            _change(f"place {rank}", answer, _inside(rises, polygon, raster), rasters.cell)
-        )
+        inside = _inside(rises, polygon, raster)
+        found.append(_change(f"place {rank}", answer, [inside], rasters.cell))
     return found
 
 
-def _inside(rises: np.ndarray, polygon: Polygon, raster: Raster) -> np.ndarray:
+class _Rises:
+    """By how much the terrain rose, 0 without a value; of no terrain, what was before is lost."""
+
+    def __init__(self, terrain: Windows | None, before: Windows) -> None:
+        self._terrain, self._before, self.shape = terrain, before, before.shape
+
+    def __getitem__(self, window: tuple[slice, slice]) -> np.ndarray:
+        before = self._before[window]
+        terrain = np.zeros_like(before) if self._terrain is None else self._terrain[window]
+        return np.nan_to_num(terrain - before)
+
+
+def _inside(rises: _Rises, polygon: Polygon, raster: Raster) -> np.ndarray:
     """Return the values of the cells in a polygon."""
     x0, a, _, y0, _, d = raster.geotransform
     corners = np.vstack(polygon)[:, :2]
@@ -142,18 +153,19 @@ def _inside(rises: np.ndarray, polygon: Polygon, raster: Raster) -> np.ndarray:
         slice(max(int(np.floor(values.min())), 0), max(int(np.ceil(values.max())), 0))
         for values in (rows, columns)
     )
-    part = rises[window]
+    part = rises[window[0], window[1]]
     places = np.argwhere(np.ones(part.shape, dtype=bool)) + [one.start for one in window]
     x, y = corners_of(places, raster).T
     return part.ravel()[Area(None, (polygon,)).contains(x, y)]
 
 
-def _change(name: str, answer: str, rises: np.ndarray, cell: float) -> Change:
+def _change(name: str, answer: str, parts: Iterable[np.ndarray], cell: float) -> Change:
     """Return the figures of the heights by which some cells rose."""
-    changed = rises[np.abs(rises) >= _CHANGED].astype(np.float64)
-    if not len(changed):
-        return Change(name, answer, 0, 0.0, 0.0, 0.0)
-    largest = float(changed[np.abs(changed).argmax()])
-    return Change(
-        name, answer, len(changed), len(changed) * cell**2, float(changed.mean()), largest
-    )
+    count, total, largest = 0, 0.0, 0.0
+    for rises in parts:
+        changed = rises[np.abs(rises) >= _CHANGED].astype(np.float64)
+        if len(changed):
+            most = float(changed[np.abs(changed).argmax()])
+            largest = most if abs(most) > abs(largest) else largest
+        count, total = count + len(changed), total + float(changed.sum())
+    return Change(name, answer, count, count * cell**2, total / max(count, 1), largest)

@@ -7,6 +7,7 @@ from typing import Optional, Sequence, Tuple
 import numpy as np
 
 from ...las.class_names import CLASSES, named_class
+from ...rasters.windows import Windows
 from ...relief.hillshade import hillshade
 from ...report.page import Html, element, key, map_of, page, paragraph, section, table
 from ...report.pictures import Picture, rgb
@@ -93,7 +94,9 @@ def _pictures(
         return (element("p", "Without a terrain model there is no picture."),)
     line = line_of(rasters, place)
     legend = key(_PLACE, "the place") + key(_LINE, "the line of the profile")
-    drawn = map_of(_map(rasters, place, line), "Terrain model, north is up", legend, units)
+    drawn = map_of(
+        _map(rasters, rasters.terrain, place, line), "Terrain model, north is up", legend, units
+    )
     below = [
         key(_TERRAIN, "terrain model"), key(_PLACE, "where it may be, by the expected error"),
     ]  # fmt: skip
@@ -103,11 +106,11 @@ def _pictures(
             some, colour = points.classes == value, _CLASSES.get(value, _OTHER)
             dots.append(Dots(points.along[some], points.heights[some], colour))
             below.append(key(colour, CLASSES.get(value, named_class(value))))
-    chart = _profile(rasters, line, dots, units)
+    chart = _profile(rasters, rasters.terrain, line, dots, units)
     return Html(f'<div class="place">{drawn}</div>'), chart, paragraph(*below)
 
 
-def _map(rasters: Rasters, place: PlaceToReview, line: np.ndarray) -> Picture:
+def _map(rasters: Rasters, terrain: Windows, place: PlaceToReview, line: np.ndarray) -> Picture:
     """Return the relief round a place, in which the place and its line have colours."""
     margin, shape = _AROUND / rasters.cell, rasters.error.shape
     rows, columns = (
@@ -117,7 +120,7 @@ def _map(rasters: Rasters, place: PlaceToReview, line: np.ndarray) -> Picture:
         )
         for axis, part in enumerate(place.window)
     )
-    heights = rasters.terrain[rows, columns] if rasters.terrain is not None else rasters.error
+    heights = terrain[rows, columns]
     shade = hillshade(heights, rasters.cell)
     pixels = np.repeat(np.where(shade > 0, shade, 255)[:, :, None], 3, axis=2).astype(np.float64)
     inside = np.zeros(heights.shape, dtype=bool)
@@ -131,7 +134,9 @@ def _map(rasters: Rasters, place: PlaceToReview, line: np.ndarray) -> Picture:
     return Picture(np.rint(pixels).astype(np.uint8), rasters.cell)
 
 
-def _profile(rasters: Rasters, line: np.ndarray, dots: Sequence[Dots], units: Units) -> Html:
+def _profile(
+    rasters: Rasters, surface: Windows, line: np.ndarray, dots: Sequence[Dots], units: Units
+) -> Html:
     """Return the profile of terrain model and expected error along a line."""
     from scipy import ndimage
 
@@ -139,9 +144,17 @@ def _profile(rasters: Rasters, line: np.ndarray, dots: Sequence[Dots], units: Un
     count = int(np.ceil(np.hypot(*way))) + 1
     shares = np.linspace(0.0, 1.0, count)
     places = (line[0] + shares[:, None] * way).T
+    # The cells round the line, since those of large rasters are not all in memory.
+    first = [max(int(np.floor(along.min())) - 1, 0) for along in places]
+    window = tuple(
+        slice(start, int(np.ceil(along.max())) + 2) for start, along in zip(first, places)
+    )
     terrain, error = (
-        ndimage.map_coordinates(values, places, order=1, cval=np.nan) / units.vertical
-        for values in (rasters.terrain, rasters.error)
+        ndimage.map_coordinates(
+            values[window], places - np.reshape(first, (2, 1)), order=1, cval=np.nan
+        )
+        / units.vertical
+        for values in (surface, rasters.error)
     )
     along = shares * float(np.hypot(*way)) * rasters.cell / units.horizontal
     towards = int(np.rint(np.arctan2(-way[0], way[1]) / (np.pi / 4.0))) % len(_WINDS)

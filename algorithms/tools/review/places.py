@@ -10,6 +10,8 @@ import numpy as np
 
 from ...core.parameters import ParameterSet, parameter
 from ...grids.isolines import rings_of
+from ...grids.quantile import quantile_of
+from ...rasters.windows import Windows, strips_of
 from ...report.units import Units
 from .reasons import Figures, reason_of
 
@@ -56,20 +58,21 @@ class Review(ParameterSet):
         help="The places with the largest product of expected error and area are written.",
     )
 
-    def limit(self, error: np.ndarray) -> float:
+    def limit(self, error: Windows) -> float:
         """Return what expected errors of places exceed, in metres, given those of all cells."""
         least = self.least_error
         if least is None:
-            least = max(float(np.nanquantile(error, _USUAL)), _LEAST)
+            usual = quantile_of(lambda: (strip for _, strip in strips_of(error)), _USUAL)
+            least = max(usual, _LEAST)
         return least * (1.0 + _SAME)  # many cells may have that very value
 
 
 class Rasters(NamedTuple):
     """What places are found in; float32 (rows, columns), in metres, NaN for no value."""
 
-    error: np.ndarray  # the expected error
-    terrain: np.ndarray | None  # the terrain model
-    cause: np.ndarray | None  # 1 for the first piece of `Evidence`, 0 for none
+    error: Windows  # the expected error
+    terrain: Windows | None  # the terrain model
+    cause: Windows | None  # 1 for the first piece of `Evidence`, 0 or NaN for none
     cell: float  # side of a cell in metres
 
 
@@ -119,7 +122,10 @@ def _regions(rasters: Rasters, least: float) -> Iterator[tuple[tuple[slice, slic
         for column in range(0, rasters.error.shape[1], side):
             square = rasters.error[row : row + side, column : column + side]
             with np.errstate(invalid="ignore"):  # NaN is not larger
-                labels, _ = ndimage.label(square > least, np.ones((3, 3)))
+                is_over = square > least
+            if not is_over.any():
+                continue
+            labels, _ = ndimage.label(is_over, np.ones((3, 3)))
             for number, (rows, columns) in enumerate(ndimage.find_objects(labels), start=1):
                 window = (
                     slice(row + rows.start, row + rows.stop),
@@ -171,7 +177,7 @@ def _reason(
 
     cause = 0
     if rasters.cause is not None:
-        causes = np.where(cells, rasters.cause[window], 0).astype(np.intp)
+        causes = np.where(cells, np.nan_to_num(rasters.cause[window]), 0).astype(np.intp)
         cause = _first_of_largest(np.bincount(causes.ravel(), errors.ravel()))
     inner = ndimage.distance_transform_edt(np.pad(cells, 1)).max()
     width = round(2.0 * float(inner) * rasters.cell)

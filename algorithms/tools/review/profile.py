@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 import numpy as np
 
 from ...core.points import Box
 from ...core.progress import SILENT, Progress
+from ...grids.cells import are_inside
 from ...grids.lines import NearPlaces
 from ...las.cloud import PointCloud
 from ...survey.files import Inputs
@@ -42,12 +44,19 @@ def line_of(rasters: Rasters, place: PlaceToReview) -> np.ndarray:
     """
     inside = np.argwhere(place.cells) + [part.start for part in place.window]
     offsets = (inside - place.worst).astype(np.float64)
+    angles = np.arange(_DIRECTIONS) * np.pi / _DIRECTIONS - np.pi / 2.0  # from west to east
+    ways = np.column_stack((-np.sin(angles), np.cos(angles)))
+    every = [_ends(offsets, way, rasters.cell) for way in ways]
+    reach = math.ceil(np.abs(every).max()) + 1
+    first = [max(middle - reach, 0) for middle in place.worst]
+    near = None
+    if rasters.terrain is not None:
+        window = (slice(start, middle + reach + 1) for start, middle in zip(first, place.worst))
+        near = rasters.terrain[tuple(window)]
     lines = []
-    for angle in np.arange(_DIRECTIONS) * np.pi / _DIRECTIONS - np.pi / 2.0:  # from west to east
-        way = np.array((-np.sin(angle), np.cos(angle)))
-        ends = _ends(offsets, way, rasters.cell)
+    for way, ends in zip(ways, every):
         # Rounded, so that no last bit of a number decides.
-        departure = round(_departure(rasters, place.worst, way, ends), 2)
+        departure = round(_departure(near, np.subtract(place.worst, first), way, ends), 2)
         lines.append((departure, round(ends[1] - ends[0], 2), way, ends))
     most = max(line[0] for line in lines)
     good = (line for line in lines if line[0] >= round(_AS_GOOD * most, 2))
@@ -65,16 +74,15 @@ def _ends(offsets: np.ndarray, way: np.ndarray, cell: float) -> tuple[float, flo
 
 
 def _departure(
-    rasters: Rasters, worst: tuple[int, int], way: np.ndarray, ends: tuple[float, float]
+    terrain: np.ndarray | None, worst: np.ndarray, way: np.ndarray, ends: tuple[float, float]
 ) -> float:
     """Return how far the terrain along a line departs from a straight slope, in metres."""
-    if rasters.terrain is None:
+    if terrain is None:
         return 0.0
     steps = np.arange(np.ceil(ends[0]), ends[1])
-    rows, columns = np.rint(np.array(worst)[:, None] + np.outer(way, steps)).astype(np.intp)
-    shape = rasters.terrain.shape
-    there = (rows >= 0) & (rows < shape[0]) & (columns >= 0) & (columns < shape[1])
-    heights = rasters.terrain[rows[there], columns[there]].astype(np.float64)
+    rows, columns = np.rint(worst[:, None] + np.outer(way, steps)).astype(np.intp)
+    there = are_inside(rows, columns, terrain.shape)
+    heights = terrain[rows[there], columns[there]].astype(np.float64)
     known = np.isfinite(heights)
     steps, heights = steps[there][known], heights[known]
     if len(steps) < 3:

@@ -1,0 +1,63 @@
+"""The cells of rasters that may be too large for the memory, of which windows are looked at."""
+
+from __future__ import annotations
+
+from typing import Any, Iterator, Protocol, Tuple
+
+import numpy as np
+
+from .geotiff import Raster
+
+# Cells that are read at a time, and that stay until others are looked at.
+_CELLS = 16_000_000
+Window = Tuple[slice, slice]
+
+
+class Windows(Protocol):
+    """Cells of which windows can be looked at: a `RasterWindows`, or an array."""
+
+    @property
+    def shape(self) -> Any:
+        """Numbers of rows and columns."""
+
+    def __getitem__(self, window: Any, /) -> Any:
+        """Return the cells of a window of rows and columns, those that there are."""
+
+
+class RasterWindows:
+    """The cells of a raster file in the order of the file, times a factor; NaN without value."""
+
+    def __init__(self, raster: Raster, factor: float = 1.0) -> None:
+        self.shape, self._raster, self._stored = raster.whole, raster, raster.stored
+        self._factor, self._first = np.float32(factor), 0
+        self._held = np.zeros((0, raster.whole[1]), dtype=np.float32)
+
+    def __getitem__(self, window: Window) -> np.ndarray:
+        """Return the cells of a window, those that there are; float32 (rows, columns)."""
+        rows, columns = window
+        start, end = max(rows.start, 0), min(rows.stop, self.shape[0])
+        if start >= end:
+            return self._held[:0, columns]
+        if start < self._first or end > self._first + len(self._held):
+            # Windows are mostly looked at from north to south.
+            more = max(_CELLS // max(self.shape[1], 1), 1)
+            first = max(start - more // 16, 0)
+            self._first, self._held = first, self._read(first, max(end, first + more))
+        held = slice(start - self._first, end - self._first)
+        return self._held[held, slice(max(columns.start, 0), max(columns.stop, 0))]
+
+    def _read(self, start: int, end: int) -> np.ndarray:
+        end = min(end, self.shape[0])
+        cells = np.full((end - start, self.shape[1]), np.nan, dtype=np.float32)
+        for first, last in self._stored.runs(start, end):
+            cells[:, first:last] = self._raster.rows(start, end, first, last)
+        cells *= self._factor
+        return cells
+
+
+def strips_of(cells: Windows) -> Iterator[tuple[int, np.ndarray]]:
+    """Yield the first row of each strip of a raster, and its cells, from north to south."""
+    rows, columns = cells.shape
+    step = max(_CELLS // 2 // max(columns, 1), 1)
+    for start in range(0, rows, step):
+        yield start, cells[start : min(start + step, rows), 0:columns]
