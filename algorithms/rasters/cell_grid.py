@@ -19,7 +19,6 @@ from .content import NO_CELLS, Content, Source, read_content
 from .geotiff import RasterGrid
 
 MOST_CELLS = 4_000_000_000
-MOST_WITH_EMPTY = 10 * MOST_CELLS  # of rasters that are empty for the most part
 # A corner of a given raster so near a multiple of the cell size, as a share of it, is one.
 _ROUNDING = 1e-6
 # Sides of cells, and corners, may be off by this share of a cell over the whole raster.

@@ -17,6 +17,7 @@ from .libraries import GdalErrors, library
 from .undeclared import Undeclared, suspects, undeclared_in
 
 MOST_CELLS = 400_000_000  # most cells of a raster in memory
+MOST_WITH_EMPTY = 100 * MOST_CELLS  # of rasters that are empty for the most part
 # Names of files that GDAL would download, and names of parts of a file.
 _REMOTE = re.compile(r"[a-z][a-z0-9+.-]+://|/vsi", re.IGNORECASE)
 _PART = re.compile(r'[A-Z][A-Z0-9_]+:"?(?P<file>.+?)"?(:[^:\\/]*)?$')

@@ -4,29 +4,21 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import partial
-from typing import Callable, NamedTuple, Sequence
+from typing import NamedTuple, Sequence
 
 import numpy as np
 
 from ..core.errors import BareEarthError
 from ..core.points import Box, Frame, Points
 from ..core.progress import SILENT, Progress
-from ..core.threads import parts_of
 from ..crs.measurable import length_scale, wrong_lengths
 from ..crs.system import Crs, crs_of_wkt, same_unit, unit_name, unit_symbol
 from ..crs.unit_names import unit_in
 from ..crs.wkt import read_wkt
-from .content import MOST_CELLS, Content, Source, Window, read_content, tell_of_undeclared
+from .content import MOST_WITH_EMPTY, Content, Source, Window, read_content, tell_of_undeclared
 from .stored import Stored, stored_in
 
 NODATA = -9999.0
-# Points must cover at least this share of a raster with more cells than this, counted in squares or
-# blocks: less means that a few points with stray coordinates make it so large.
-_MANY_CELLS = 10_000_000
-_LEAST_COVERED = 0.01
-_SQUARE = 1000.0  # side of a square in metres
-_STEP = 1 << 20  # points that are counted at a time
 NO_GROUND = (
     "There is no ground point to make a terrain model of. Check the selection of points and the"
     " parameters."
@@ -62,7 +54,7 @@ class RasterGrid:
         )
         west, north = math.floor(x0), math.ceil(y1)
         columns, rows = max(math.ceil(x1) - west, 1), max(north - math.floor(y0), 1)
-        check_cells(columns, rows, cell_size, partial(_covered, points))
+        check_cells(columns, rows, cell_size)
         return cls(west * cell, north * cell, cell, columns, rows, frame)
 
     @property
@@ -103,30 +95,13 @@ class RasterGrid:
         return centres * self.frame.horizontal_unit
 
 
-def check_cells(
-    columns: int,
-    rows: int,
-    cell_metres: float,
-    covered: Callable[[], float],  # returns the share of the cells with points near
-    most: int = MOST_CELLS,
-) -> None:
-    """Refuse a raster with too many cells, or with very few near points."""
-    cells = columns * rows
-    if cells > most or (cells > _MANY_CELLS and covered() < _LEAST_COVERED):
+def check_cells(columns: int, rows: int, cell_metres: float) -> None:
+    """Refuse a raster with too many cells."""
+    if columns * rows > MOST_WITH_EMPTY:
         raise BareEarthError(
             f"The raster would have {columns:,} x {rows:,} cells of {cell_metres:g} m. Choose a"
             " larger cell size, or remove points with stray coordinates."
         )
-
-
-def _covered(points: Points) -> float:
-    """Return the share of squares in the extent of points that contain points."""
-    extent = [side // _SQUARE + 1.0 for side in points.sides]
-    squares: set[complex] = set()
-    for part in parts_of(points.count, _STEP):
-        place = np.floor(points.x[part] / _SQUARE) + 1j * np.floor(points.y[part] / _SQUARE)
-        squares |= set(np.unique(place).tolist())
-    return len(squares) / (extent[0] * extent[1])
 
 
 class Raster(NamedTuple):

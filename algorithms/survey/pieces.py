@@ -102,7 +102,9 @@ def _groups(place: np.ndarray) -> np.ndarray:
             left[square] = group
             beside = itertools.product((row - 1, row, row + 1), (column - 1, column, column + 1))
             waiting += beside
-    return np.unique([left[square] for square in map(tuple, place.tolist())], return_inverse=True)[1]
+    return np.unique([left[square] for square in map(tuple, place.tolist())], return_inverse=True)[
+        1
+    ]
 
 
 def _distance(boxes: np.ndarray, others: np.ndarray) -> float:

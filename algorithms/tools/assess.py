@@ -20,7 +20,7 @@ from ..core.points import Frame, Points
 from ..core.progress import SILENT, Progress
 from ..las.class_names import CLASSES
 from ..rasters.geotiff import NODATA, RasterGrid
-from ..rasters.writing import write_geotiff
+from ..rasters.scattered import ScatteredCells, write_scattered
 from ..report.page import Html, element, keys, lines, map_of, page, paragraph, section, table
 from ..report.pictures import LONGEST_SIDE, Picture, Relief
 from ..report.units import Units, percent
@@ -202,12 +202,10 @@ def _write_error_map(
     row = np.rint((grid.y[0] - points.y) / grid.cell_metres).astype(np.int64)
     place = np.clip(row, 0, grid.rows - 1) * grid.columns + np.clip(column, 0, grid.columns - 1)
     progress(0.6)
-    count, errors = (
-        np.bincount(cells, minlength=grid.rows * grid.columns) for cells in (place, place[wrong])
-    )
-    share = np.where(count > 0, errors / np.maximum(count, 1), NODATA).astype(np.float32)
-    share = share.reshape(grid.rows, grid.columns)
-    write_geotiff(target, share, grid, NODATA, progress, "Share of wrong points, 0 to 1")
+    place, number = np.unique(place, return_inverse=True)
+    count, errors = (np.bincount(own, minlength=len(place)) for own in (number, number[wrong]))
+    cells = ScatteredCells(*np.divmod(place, grid.columns), (errors / count).astype(np.float32))
+    write_scattered(target, cells, grid, NODATA, progress, "Share of wrong points, 0 to 1")
 
 
 def _report(

@@ -15,6 +15,7 @@ from bare_earth.algorithms.core.parameters import ParameterSet
 from bare_earth.algorithms.core.points import Frame
 from bare_earth.algorithms.engine.run import Run
 from bare_earth.algorithms.filters import METHODS
+from bare_earth.algorithms.rasters.geotiff import read_raster
 from bare_earth.algorithms.tools.ground.explanation import (
     ExplainedCells,
     described,
@@ -414,6 +415,18 @@ def test_the_raster_of_rules_is_no_other_output(file, out, capsys):
     assert run("classify", file, out, "--dtm", rules, "--explain", rules) == 1
     assert "rules.tif" in capsys.readouterr().err
     assert not rules.exists() and not out.exists()
+
+
+def test_rules_of_pieces_far_apart_are_written_where_they_lie(tmp_path):
+    places, codes = np.array([0, 30_000]), np.array([1, 102], dtype=np.uint8)
+    cells = ExplainedCells(places, places, codes, 1.0, ("lowest-points", "woods"))
+    rules = tmp_path / "rules.tif"
+    write_explanation(rules, [cells], Frame(), Progress())
+    assert rules.stat().st_size < 1_000_000
+    for start, code in ((0, 1), (29_900, 102)):
+        row = max(30_000 - start - 100, 0)
+        found = read_raster(rules, window=(start, row, 101, 101)).heights
+        assert found[np.isfinite(found)].tolist() == [code]
 
 
 def test_decided_cells_that_spread_too_far_are_refused(tmp_path):

@@ -45,19 +45,6 @@ def test_a_stray_point_does_not_allocate_a_huge_raster():
         RasterGrid.over(points, Frame(), 1.0)
 
 
-def test_stray_points_are_blamed_if_a_large_raster_has_points_in_few_of_its_squares():
-    # Four of 25 squares of a kilometre have points; then four of 961, but of few cells.
-    RasterGrid.over(square(4000.0), Frame(), 1.0)
-    RasterGrid.over(square(30_000.0), Frame(), 100.0)
-    with pytest.raises(BareEarthError, match="stray coordinates"):
-        RasterGrid.over(square(30_000.0), Frame(), 5.0)
-    full = np.arange(0.0, 19_000.0, 990.0)
-    everywhere = Points(*(axis.ravel() for axis in np.meshgrid(full, full)), np.zeros(400))
-    RasterGrid.over(everywhere, Frame(), 1.0)
-    with pytest.raises(BareEarthError, match="larger cell size"):
-        RasterGrid.over(everywhere, Frame(), 0.9)
-
-
 @pytest.mark.parametrize(("columns", "rows"), [(100, 4_100_000), (4_100_000, 100)])
 def test_a_raster_that_is_long_in_one_direction_counts_by_its_cells(tmp_path, columns, rows):
     path = tmp_path / "long.vrt"

@@ -14,7 +14,7 @@ from ...engine.store import Corner
 from ...filters.method import NOT_GROUND, Decisions
 from ...grids.cells import cells_at
 from ...rasters.geotiff import RasterGrid
-from ...rasters.writing import write_geotiff
+from ...rasters.scattered import ScatteredCells, write_scattered
 from ...survey.area import Area
 
 # What the description of the band begins with; a list of the rules follows.
@@ -96,6 +96,5 @@ def write_explanation(
         x, y, row, column, code = (values[inside] for values in (x, y, row, column, code))
     middles = Points(x, y, np.zeros(len(code)))
     grid = RasterGrid.over(middles, frame, size)
-    cells = np.zeros((grid.rows, grid.columns), dtype=np.uint8)
-    cells[row.max() - row, column - column.min()] = code
-    write_geotiff(path, cells, grid, 0.0, progress, described(rules))
+    cells = ScatteredCells(row.max() - row, column - column.min(), code)
+    write_scattered(path, cells, grid, 0.0, progress, described(rules))

@@ -15,7 +15,6 @@ from ...grids.cells import are_inside
 from ...grids.parts import parts_with
 from ...grids.piece_grid import PieceGrid
 from ...rasters import looks
-from ...rasters.cell_grid import MOST_WITH_EMPTY
 from ...rasters.geotiff import NODATA, RasterGrid, check_cells
 from ...rasters.looks import Categories, Look, Ramp, Steps
 from ...rasters.sparse import SIDE, Part
@@ -215,7 +214,7 @@ def write_rasters(
         raster = QUALITY_RASTERS[name]
         of_cells = raster.grid(cells)
         window = of_cells.whole
-        check_cells(window.columns, window.rows, of_cells.size, lambda: 1.0, MOST_WITH_EMPTY)
+        check_cells(window.columns, window.rows, of_cells.size)
         size = of_cells.size / frame.horizontal_unit
         north = (window.row + window.rows) * size
         grid = RasterGrid(window.column * size, north, size, window.columns, window.rows, frame)

@@ -18,14 +18,8 @@ from ...core.words import option
 from ...engine.summary import RunSummary
 from ...grids.cell_window import CellWindow
 from ...grids.expected_error import ExpectedAccuracy
-from ...rasters.cell_grid import (
-    ANYWHERE,
-    MOST_CELLS,
-    MOST_WITH_EMPTY,
-    CellGrid,
-    RasterTarget,
-    no_points,
-)
+from ...rasters.cell_grid import ANYWHERE, MOST_CELLS, CellGrid, RasterTarget, no_points
+from ...rasters.content import MOST_WITH_EMPTY
 from ...rasters.geotiff import NO_GROUND, RasterGrid
 from ...rasters.virtual import folder_of, virtual_of, write_virtual
 from ...rasters.writing import Band, RasterCells, raster_file, write_geotiff
