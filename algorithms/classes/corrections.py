@@ -14,7 +14,13 @@ from ..core.words import counted
 from ..las.cloud import PointCloud
 from ..survey.area import Area, Polygon
 from ..survey.shapes import Geometry, Place, Shapes, located
-from ..survey.vector_files import ANSWER_FIELD, CLASS_FIELD, read_polygons_with_attributes
+from ..survey.vector_files import (
+    ANSWER_FIELD,
+    CLASS_FIELD,
+    name_among,
+    read_polygons_with_attributes,
+    value_of,
+)
 
 # A later run classifies points again whose class was set to this one by hand.
 _NEVER_CLASSIFIED = 0
@@ -122,16 +128,15 @@ class Corrections(Geometry):
 def read_corrections(source: object) -> Corrections:
     """Read the polygons of a source with their classes, and no other geometries."""
     polygons, attributes = read_polygons_with_attributes(source)
-    names = {name.lower(): name for row in attributes for name in row}
-    if not {CLASS_FIELD, ANSWER_FIELD} & set(names):
-        there = ", ".join(names.values()) or "none"
+    names = list(dict.fromkeys(name for row in attributes for name in row))
+    if not (name_among(names, CLASS_FIELD) or name_among(names, ANSWER_FIELD)):
+        there = ", ".join(names) or "none"
         raise BareEarthError(
             f"No attribute of {polygons.source} is called '{CLASS_FIELD}' or '{ANSWER_FIELD}';"
             f" there are: {there}. Name the one with the classes '{CLASS_FIELD}'."
         )
     classes, answers = (
-        tuple(row.get(names.get(name, name)) for row in attributes)
-        for name in (CLASS_FIELD, ANSWER_FIELD)
+        tuple(value_of(row, name) for row in attributes) for name in (CLASS_FIELD, ANSWER_FIELD)
     )
     return Corrections(polygons, classes, answers, tuple(map(plain_values, attributes)))
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 import re
 from os import PathLike
-from typing import Any, Callable, Dict, Iterable, Iterator, Sized, Tuple
+from typing import Any, Callable, Dict, Iterable, Iterator, Mapping, Sized, Tuple
 
 import numpy as np
 
@@ -64,7 +64,7 @@ def read_boundary(source: object, may_be_empty: bool = False) -> tuple[Polygon, 
 def read_polygons_with_attributes(source: object) -> tuple[Shapes, tuple[_Attributes, ...]]:
     """Read the polygons of a source with all of their attributes, and no other geometries."""
     pairs = _shapes(
-        source, "Polygon", lambda rings, values: (_polygon(rings), values), attribute=None
+        source, "Polygon", lambda rings, values: (_polygon(rings), values), has_attributes=True
     )
     polygons, attributes = zip(*pairs)
     return Shapes(polygons, pairs.crs, pairs.source), attributes
@@ -80,8 +80,37 @@ def read_points(source: object) -> tuple[tuple[np.ndarray, dict[str, Any]], ...]
     their attributes.
     """
     return _shapes(
-        source, "Point", lambda place, values: (_line([place])[0], values), attribute=None
+        source, "Point", lambda place, values: (_line([place])[0], values), has_attributes=True
     )
+
+
+def name_among(names: Iterable[str], wanted: str) -> str | None:
+    """Return the name of an attribute, the exact one or else in any case; None for none."""
+    # Formats and databases write names in upper or lower case as they like.
+    names = list(names)
+    if wanted in names:
+        return wanted
+    key = _key(wanted)
+    return next((name for name in names if _key(name) == key), None)
+
+
+def value_of(attributes: Mapping[str, Any], wanted: str) -> Any:
+    """Return the value of an attribute whose name is in any case; None if there is none."""
+    # Where features of a file write it differently, each of them has all names.
+    found = attributes.get(wanted)
+    if not _is_none(found):
+        return found
+    key = _key(wanted)
+    others = (one for name, one in attributes.items() if _key(name) == key and not _is_none(one))
+    return next(others, found)
+
+
+def _is_none(value: object) -> bool:
+    return value is None or value == "" or value != value
+
+
+def _key(name: object) -> str:
+    return str(name).strip().lower()
 
 
 def _shapes(
@@ -89,7 +118,7 @@ def _shapes(
     kind: str,
     shape_of: Callable[[Any, _Attributes], Sized],
     may_be_empty: bool = False,
-    attribute: str | None = CLASS_FIELD,  # the one that is read from a file; None for all
+    has_attributes: bool = False,  # whether those of a file are read
 ) -> Shapes:
     """Return what `shape_of` makes of coordinates and attributes of geometries of a kind."""
     word, crs = _WORDS[kind], None
@@ -99,7 +128,7 @@ def _shapes(
             label, (features, crs) = FRAME, _of_frame(source, kind)
         elif isinstance(source, (str, PathLike)):
             label = str(source)
-            features, crs = read_features(label, kind, attribute)
+            features, crs = read_features(label, kind, has_attributes)
         elif (content := _geojson_of(source)) is not None:
             label, (features, crs) = _GEOMETRY, _of_geojson(content, kind)
         else:

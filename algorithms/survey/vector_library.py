@@ -33,10 +33,10 @@ class _Layer(NamedTuple):
 
 
 def read_features(
-    path: Path | str, kind: str, attribute: str | None
+    path: Path | str, kind: str, has_attributes: bool
 ) -> tuple[list[tuple[Any, dict[str, Any]]], str | None]:
-    """Read the geometries of a kind ("Polygon", "LineString" or "Point") with one attribute, or all
-    if it is None, and the CRS of the layer as code or WKT.
+    """Read the geometries of a kind ("Polygon", "LineString" or "Point") with their attributes, if
+    these are wanted, and the CRS of the layer as code or WKT.
     """
     # Coordinates are as in GeoJSON. A path can be ``FILE|layername=NAME``. A file with such
     # geometries in several layers is refused if no layer is named.
@@ -46,7 +46,7 @@ def read_features(
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # on what is left out of geometries, such as M
-            layers = [layer for layer in reads(name, attribute) if wanted in ("", layer.name)]
+            layers = [layer for layer in reads(name, has_attributes) if wanted in ("", layer.name)]
         by_layer = {layer.name: (list(_of_kind(layer, kind)), layer.crs) for layer in layers}
     except (BareEarthError, MemoryError):
         raise
@@ -91,7 +91,7 @@ def _check(path: Path) -> None:
         raise BareEarthError(f"{path} is XML, which is not read. Save it as GeoPackage or GeoJSON.")
 
 
-def _library(name: str) -> Callable[[str, str | None], Iterator[_Layer]]:
+def _library(name: str) -> Callable[[str, bool], Iterator[_Layer]]:
     """Return the function that reads layers with the installed library."""
     if importlib.util.find_spec("pyogrio") is not None:
         return _by_pyogrio
@@ -100,14 +100,13 @@ def _library(name: str) -> Callable[[str, str | None], Iterator[_Layer]]:
     raise BareEarthError(f"{name} needs pyogrio to be read: pip install pyogrio.")
 
 
-def _by_pyogrio(name: str, attribute: str | None) -> Iterator[_Layer]:
+def _by_pyogrio(name: str, has_attributes: bool) -> Iterator[_Layer]:
     import pyogrio
 
     for layer, kind in pyogrio.list_layers(name):
         if kind is None:  # a table
             continue
-        fields = pyogrio.read_info(name, layer)["fields"].tolist()
-        columns = [field for field in fields if attribute in (None, field)]
+        columns: list[str] | None = None if has_attributes else []  # all, or none
         about, _, shapes, values = pyogrio.raw.read(name, layer, columns=columns)
         # Before 0.13 the fields come in alphabetical order, not in that of the file.
         names = about["fields"].tolist()
@@ -116,7 +115,7 @@ def _by_pyogrio(name: str, attribute: str | None) -> Iterator[_Layer]:
         yield _Layer(layer, about["crs"], features)
 
 
-def _by_gdal(name: str, attribute: str | None) -> Iterator[_Layer]:
+def _by_gdal(name: str, has_attributes: bool) -> Iterator[_Layer]:
     from osgeo import gdal
 
     gdal.PushErrorHandler("CPLQuietErrorHandler")
@@ -127,8 +126,8 @@ def _by_gdal(name: str, attribute: str | None) -> Iterator[_Layer]:
         for number in range(source.GetLayerCount()):
             layer, features = source.GetLayer(number), []
             known = layer.GetLayerDefn()
-            fields = [known.GetFieldDefn(place).GetName() for place in range(known.GetFieldCount())]
-            columns = [field for field in fields if attribute in (None, field)]
+            places = range(known.GetFieldCount() if has_attributes else 0)
+            columns = [known.GetFieldDefn(place).GetName() for place in places]
             for feature in layer:
                 shape = feature.GetGeometryRef()
                 shape = shape.GetLinearGeometry() if shape is not None else None

@@ -22,7 +22,7 @@ from ...algorithms.classes.corrections import NO_CORRECTIONS, Corrections, plain
 from ...algorithms.core.progress import SILENT, Progress
 from ...algorithms.rasters.cell_grid import RasterTarget
 from ...algorithms.survey.area import Area
-from ...algorithms.survey.vector_files import ANSWER_FIELD, CLASS_FIELD
+from ...algorithms.survey.vector_files import ANSWER_FIELD, CLASS_FIELD, name_among, value_of
 from ...algorithms.tools.declaration import Input, ToFind, with_note
 from ...algorithms.tools.input_groups import GROUPS
 from ...algorithms.tools.rasters.constraints import Constraints
@@ -243,10 +243,7 @@ def _corrections(request: Request, declared: Input) -> Given:
     asked = algorithm.parameterAsString(parameters, "CORRECTIONS_FIELD", context) or CLASS_FIELD
     source = algorithm.parameterAsSource(parameters, layer, context)
     fields = [] if source is None else source.fields().names()
-    name, answer = (
-        next((field for field in fields if field.lower() == wanted.lower()), "")
-        for wanted in (asked, ANSWER_FIELD)
-    )
+    name, answer = (name_among(fields, wanted) or "" for wanted in (asked, ANSWER_FIELD))
     if source is not None and not (name or answer):
         text = mark("The corrections have no attribute {}. Choose the one to use.")
         raise Refusal(text, asked)
@@ -260,7 +257,7 @@ def _corrections(request: Request, declared: Input) -> Given:
     field = algorithm, parameters, layer, "Corrections", context, _crs_of(request)
     shapes = layer_shapes(*field, attributes=fields)
     polygons, rows = zip(*shapes) if shapes else ((), ())
-    classes, answers = (tuple(row.get(one) for row in rows) for one in (name, answer))
+    classes, answers = (tuple(value_of(row, one) for row in rows) for one in (name, answer))
     found = Corrections(polygons, classes, answers, tuple(map(plain_values, rows)))
     return Given(found, {declared.name: file})
 

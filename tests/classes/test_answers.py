@@ -144,3 +144,13 @@ def test_attributes_are_found_in_any_case(cloud, tmp_path):
     las = laspy.read(tmp_path / "o.laz")
     inside = _within(HOUSE, np.asarray(las.x) - ORIGIN[0], np.asarray(las.y) - ORIGIN[1])
     assert set(np.asarray(las.classification)[inside].tolist()) == {6}
+
+
+def test_each_feature_may_write_its_attributes_in_another_case(cloud, tmp_path):
+    features = (PLACE, {"ANSWER": "right"}), (HOUSE, {"Class": 6}), (TREES, {"class": 5})
+    answers = _answers(tmp_path / "a.geojson", *features)
+    classify(cloud, tmp_path / "o.laz", corrections=answers, **HOW)
+    las = laspy.read(tmp_path / "o.laz")
+    for box, code in ((HOUSE, 6), (TREES, 5)):
+        inside = _within(box, np.asarray(las.x) - ORIGIN[0], np.asarray(las.y) - ORIGIN[1])
+        assert set(np.asarray(las.classification)[inside].tolist()) == {code}

@@ -353,6 +353,19 @@ def test_vector_files(tmp_path, suffix, has_z):
     assert "25832" in found.places.crs
 
 
+def test_each_point_may_write_its_attributes_in_another_case(tmp_path):
+    path = collection(tmp_path / "p.geojson", z=False)
+    content = json.loads(path.read_text(encoding="utf-8"))
+    first = content["features"][0]
+    first["properties"] = {name.upper(): one for name, one in first["properties"].items()}
+    path.write_text(json.dumps(content), encoding="utf-8")
+    for source in (path, content):
+        for columns in (None, "z=h"):
+            found = read_checkpoints(source, columns)
+            assert found.names == ("A1", "A2") and found.covers == ("Wald", "Schotter")
+            assert found.xyz.tolist() == [list(row[1:4]) for row in ROWS]
+
+
 def test_a_height_of_the_geometry_or_of_a_field(tmp_path):
     path = collection(tmp_path / "p.geojson", ortho=7.5)
     assert read_checkpoints(path, "z=ortho").xyz[:, 2].tolist() == [7.5, 7.5]

@@ -10,6 +10,7 @@ from typing import Mapping, NamedTuple, Sequence
 
 from ...core.errors import BareEarthError
 from ...crs.unit_names import FOOT, UNITS, US_FOOT
+from ...survey.vector_files import name_among
 
 # Lists of words that surveyors write, in two sections.
 VOCABULARY = configparser.ConfigParser(interpolation=None)
@@ -160,12 +161,9 @@ def columns_of(
 
 def _place_of(wanted: str, names: Sequence[str], path: Path | str) -> int:
     """Return the place of a column that the user gave by its name or number."""
-    exact = [name.strip() for name in names]
-    for known, name in (
-        (exact, wanted.strip()), ([name.lower() for name in exact], wanted.strip().lower())
-    ):  # fmt: skip
-        if name in known:
-            return known.index(name)
+    name = name_among(names, wanted.strip())
+    if name is not None:
+        return names.index(name)
     if wanted.isdigit() and 1 <= int(wanted) <= len(names):
         return int(wanted) - 1
     raise BareEarthError(f"{path} has no column {wanted}. It has {', '.join(map(str, names))}.")

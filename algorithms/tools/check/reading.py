@@ -13,7 +13,7 @@ import numpy as np
 from ...core.errors import BareEarthError
 from ...crs.stated import stated_wkt
 from ...survey.shapes import Shapes
-from ...survey.vector_files import read_points
+from ...survey.vector_files import read_points, value_of
 from .checkpoints import Checkpoints, OtherHeights, is_height
 from .columns import ColumnName, answer_in, columns_in, columns_of, parts_of
 from .tables import SPREADSHEETS, SUFFIXES, number_of, places_without_names, read_table
@@ -61,7 +61,11 @@ def read_checkpoints(path: Any, columns: str | None = None, crs: str | None = No
         stated = getattr(points, "crs", None)
         names = list(dict.fromkeys(name for _, attributes in points for name in attributes))
         records = [
-            Record(f"Point {number} of {path}", tuple(map(attributes.get, names)), place)
+            Record(
+                f"Point {number} of {path}",
+                tuple(value_of(attributes, name) for name in names),
+                place,
+            )
             for number, (place, attributes) in enumerate(points, start=1)
         ]
     return checkpoints_of_rows(names, records, chosen, str(path), usual, stated_wkt(crs) or stated)
