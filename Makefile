@@ -1,5 +1,5 @@
 # The set-up is all in tools/environment: it makes what is missing, below build/.
-.PHONY: help demo test test-all test-core test-long test-systems lint test-qgis coverage docs translations package clean
+.PHONY: help demo test test-all test-rest test-long lint test-qgis coverage docs translations package clean
 
 help:  ## list the targets
 	@sed -n 's/^\([a-z-]*\):.*## /  \1\t/p' Makefile | expand -t 14
@@ -7,25 +7,22 @@ help:  ## list the targets
 demo:  ## classify LAS=tile.laz (TRUTH=reference.laz), LAND=mountain, campus or court, or a generated scene, into demo-output/; QGIS=1: by an installed QGIS; JOB=survey: the data of a tutorial
 	@tools/environment demo -m demo $(if $(JOB),--job $(JOB)) $(if $(LAND),--land $(LAND)) $(if $(QGIS),--qgis) $(if $(LAS),"$(LAS)") $(if $(TRUTH),--truth "$(TRUTH)")
 
-test:  ## run all that follows, installing a QGIS if there is none
-	@tools/test core lint qgis
+test:  ## run the daily tests and checks, installing a QGIS if there is none; ROOM=las or ROOM=tools/check: those of a room, and the walls
+	@tools/test $(if $(ROOM),room,core style qgis)
 
-test-all: test test-systems  ## run what `test` and `test-systems` run: what CI runs here
+test-all: test test-rest  ## run all that CI runs here
 
-test-core:  ## test the classifier, without QGIS
-	@tools/test core
+test-rest:  ## run what `test` leaves out of it: what costs more, processors with fewer instructions, files as on Windows, and Python 3.9 with the oldest NumPy and SciPy
+	@tools/test rest gates qgis_rest levels windows oldest
 
-test-long:  ## run the tests that test-core leaves out, for they take long
+test-long:  ## run the tests that all of these leave out, for they take long
 	@tools/test long
-
-test-systems:  ## test once more what can differ: outputs on processors with fewer instructions, files as on Windows, and Python 3.9 with the oldest NumPy and SciPy
-	@tools/test levels windows oldest
 
 lint:  ## check the style, the types, and what plugins.qgis.org checks
 	@tools/test lint
 
-test-qgis:  ## test the plugin in the real QGIS
-	@tools/test qgis
+test-qgis:  ## run all tests of the plugin in the real QGIS
+	@tools/test qgis qgis_rest
 
 docs:  ## build the pages as a site, build/site/index.html
 	@tools/environment python -m pip install --quiet --editable ".[docs]"

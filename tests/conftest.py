@@ -8,7 +8,12 @@ from pathlib import Path
 
 import pytest
 from las_files import LasKit
-from left_out import pytest_runtest_setup  # noqa: F401
+from left_out import (  # noqa: F401
+    pytest_deselected,
+    pytest_itemcollected,
+    pytest_runtest_setup,
+    pytest_testnodedown,
+)
 from remote_server import serving
 
 from bare_earth.algorithms.core import temporary as temporary_module

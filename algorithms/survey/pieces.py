@@ -102,9 +102,8 @@ def _groups(place: np.ndarray) -> np.ndarray:
             left[square] = group
             beside = itertools.product((row - 1, row, row + 1), (column - 1, column, column + 1))
             waiting += beside
-    return np.unique([left[square] for square in map(tuple, place.tolist())], return_inverse=True)[
-        1
-    ]
+    groups = [left[square] for square in map(tuple, place.tolist())]
+    return np.unique(groups, return_inverse=True)[1]
 
 
 def _distance(boxes: np.ndarray, others: np.ndarray) -> float:

@@ -1,3 +1,8 @@
-"""The tests of the benchmarks leave long ones out, as those in tests/ do."""
+"""The tests of the benchmarks leave out what costs much, as those in tests/ do."""
 
-from left_out import pytest_runtest_setup  # noqa: F401
+from left_out import (  # noqa: F401
+    pytest_deselected,
+    pytest_itemcollected,
+    pytest_runtest_setup,
+    pytest_testnodedown,
+)

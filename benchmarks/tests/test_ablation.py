@@ -37,6 +37,7 @@ def kept(tmp_path, monkeypatch):
     return tmp_path
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize("method", quick(METHODS, "slope"))
 def test_every_variant_but_the_base_changes_the_pipeline(method):
     usual = pipeline_of(method)
@@ -60,6 +61,7 @@ def test_values_are_changed_wherever_the_rule_is_a_field():
     assert [part.wide for part in parts if part.name == "raised-objects"] == [None, None]
 
 
+@pytest.mark.rest
 def test_a_rule_is_off_only_within():
     cloud = make(SCENE, 101, size=60.0, density=1.0).cloud()
     slope = Filter("slope")
@@ -72,6 +74,7 @@ def test_a_rule_is_off_only_within():
     np.testing.assert_array_equal(slope.ground(cloud), before)
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize("method", quick(METHODS, "tin-densification"))
 def test_a_replay_finds_what_a_whole_run_finds(method):
     cloud, found = make(SCENE, 101, size=60.0, density=2.0).cloud(), Filter(method)
@@ -87,6 +90,7 @@ def test_a_replay_finds_what_a_whole_run_finds(method):
     assert differing > 1
 
 
+@pytest.mark.rest
 def test_what_was_measured_is_kept(kept, monkeypatch, capsys):
     arguments = ["--quick", "--method", "slope", "--rules", "progressive-opening", "rocks"]
     arguments += ["--on", "isprs", "real"]
@@ -125,6 +129,7 @@ def test_plain_things_that_a_rule_protects_and_takes_are_counted(kept, monkeypat
     assert ", 2 rows)" in (kept / "rules.md").read_text("utf-8")
 
 
+@pytest.mark.rest
 def test_labels_and_terrain_models_are_measured(kept, monkeypatch):
     scene = make(SCENE, 101, size=60.0, density=1.0)
     monkeypatch.setattr(data, "load", lambda path: (scene.cloud(), np.where(scene.ground, 2, 1)))

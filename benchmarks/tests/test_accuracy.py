@@ -206,6 +206,7 @@ def test_spikes_and_pits_are_places_of_three_cells_more_than_a_metre_off():
     assert places.counted(found) == ((2, 3.0), (1, 7.0))
 
 
+@pytest.mark.rest
 def test_each_spike_is_drawn_with_the_rule_that_decided(folder, capsys):
     # A mound that the reference leaves out is a spike of ours.
     x, y = np.random.default_rng(1).uniform(0, 60, (2, 8000))

@@ -46,6 +46,7 @@ def test_the_table_has_means_of_the_places_where_a_figure_is_known():
     assert any("Plain things held, of 1" in line and "1 -> 1" in line for line in lines)
 
 
+@pytest.mark.rest
 def test_places_are_measured_in_a_process_and_kept(tmp_path, monkeypatch):
     monkeypatch.setattr(cache, "FOLDER", tmp_path)
     monkeypatch.setattr(judge, "places", lambda is_full: [HELD])

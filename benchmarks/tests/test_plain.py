@@ -75,12 +75,14 @@ def _in_turn(methods):
     ]
 
 
+@pytest.mark.rest(but="roof")
 @pytest.mark.parametrize("name, method", _in_turn(METHODS))
 def test_what_came_out_right_still_does(name, method):
     judge = plain.Judge(ROWS[name])
     assert judge.judged(judge.ground(Filter(method))).held
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize("name", quick(HELD_BY_TIN, HELD_BY_TIN[0]))
 def test_roofs_down_to_the_ground_go(name):
     judge = plain.Judge(ROWS[name])
@@ -95,6 +97,7 @@ def test_no_fewer_rows_are_held_in_all():
     assert all(held[method] >= least for method, least in LEAST.items()), held
 
 
+@pytest.mark.rest
 def test_the_command_prints_rows_and_sums_and_draws_what_fails(tmp_path, monkeypatch, capsys):
     monkeypatch.setattr(work, "PROCESSES", 1)
     few = ["--only", "0.5x60-slope5-8pm2-a", "--kind", "numbered-grass", "--method", "slope"]

@@ -14,6 +14,7 @@ def hall():
     return make("hall_flat", seed=1, density=1.0)
 
 
+@pytest.mark.rest
 def test_the_truth_has_no_error(hall):
     score = generated.score_scene(hall, hall.ground)
     assert (score.type_1, score.type_2, score.share_wrong_1m) == (0.0, 0.0, 0.0)
@@ -21,6 +22,7 @@ def test_the_truth_has_no_error(hall):
     assert all(share == 0.0 for share in score.kept.values())
 
 
+@pytest.mark.rest
 def test_a_roof_that_is_kept_is_seen_in_every_figure_but_type_1(hall):
     roof = hall.classes == 6
     score = generated.score_scene(hall, hall.ground | roof)
@@ -34,6 +36,7 @@ def test_a_roof_that_is_kept_is_seen_in_every_figure_but_type_1(hall):
     assert score.dtm_rmse == pytest.approx(height * np.sqrt(share / 100.0), rel=0.25)
 
 
+@pytest.mark.rest
 def test_ground_that_is_missed_is_type_1_and_cells_without_height_are_wrong(hall):
     west = hall.points.x < np.median(hall.points.x)
     score = generated.score_scene(hall, hall.ground & west)
@@ -99,6 +102,7 @@ def test_phases_are_many_and_spread_over_the_cell():
     assert apart[~np.eye(len(places), dtype=bool)].min() > 0.15
 
 
+@pytest.mark.rest
 def test_a_shift_moves_the_points_against_the_cells_and_nothing_else():
     cloud = make("village", seed=1, density=1.0, size=100.0).cloud()
     moved = shifted(cloud, 0.26, 0.71)

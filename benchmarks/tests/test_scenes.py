@@ -10,6 +10,7 @@ SHARE = {"drone_images": 0.25, "drone_noisy": 0.3, "drone_2000": 0.2, "water_gap
 
 
 # Every eighth, and all with `make test-long`.
+@pytest.mark.rest(but="birds")
 @pytest.mark.parametrize(
     "kind",
     [
@@ -33,6 +34,7 @@ def test_the_truth_of_every_kind_is_true(kind):
     assert low.sum() == 0 or np.median(above[low]) < -0.8
 
 
+@pytest.mark.rest(but="photogrammetry")
 @pytest.mark.parametrize("kind", ["village", "quarry", "open_forest", "photogrammetry"])
 def test_a_seed_decides_all_and_moves_more_than_the_noise(kind):
     size = 0.3 * KINDS[kind].defaults.size
@@ -48,6 +50,7 @@ def test_a_seed_decides_all_and_moves_more_than_the_noise(kind):
     assert np.std(mine - others) > 0.1
 
 
+@pytest.mark.rest
 def test_changes_are_heard():
     few, many = (make("hills", 0, density=density, size=80.0) for density in (0.1, 10.0))
     assert 20 * few.points.count < many.points.count
@@ -70,6 +73,7 @@ def _corner_of_a_ridge(slope):
     return scene.terrain(*scene.corner)
 
 
+@pytest.mark.rest
 def test_faces_carry_points():
     scene = make("hall_flat", seed=3)
     roof = scene.classes == 6

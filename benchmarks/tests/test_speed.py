@@ -80,6 +80,7 @@ def test_process_that_fails_or_takes_too_long_is_told():
     assert 0.5 <= late.wall < 30.0
 
 
+@pytest.mark.rest
 def test_survey_is_one(survey, tmp_path):
     import laspy
 
@@ -116,6 +117,7 @@ def test_survey_has_ground_houses_and_trees(survey):
     assert 0.4 < ground.mean() < 0.95
 
 
+@pytest.mark.rest
 def test_pieces_of_a_large_survey_are_small_and_cover_a_square(tmp_path, monkeypatch):
     import laspy
 
@@ -185,6 +187,7 @@ def test_written_files_are_of_the_kind_of_the_tile(survey, tmp_path):
     assert [run.cost.problem for run in runs] == [""]
 
 
+@pytest.mark.rest
 def test_programs_take_part_where_they_are_installed(tmp_path, monkeypatch):
     program = tmp_path / "pdal"
     program.write_text("#!/bin/sh\n")

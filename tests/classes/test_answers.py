@@ -85,6 +85,7 @@ def test_ground_continues_the_ground_and_takes_no_roof(cloud, tmp_path):
     assert any("in places with the answer 'ground'" in text for text in heard.infos)
 
 
+@pytest.mark.rest
 def test_an_answer_is_the_same_in_tiles_and_from_disk(integers, cloud, tmp_path):
     whole, disk, tiles = tmp_path / "whole.laz", tmp_path / "disk.laz", tmp_path / "tiles"
     how = {**HOW, "corrections": _answers(tmp_path / "a.geojson", (PLACE, {"answer": "ground"}))}

@@ -78,6 +78,7 @@ def corrections(tmp_path):
 # Polygons
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize(
     ("method", "size"),
     [
@@ -107,6 +108,7 @@ def test_polygons_hold_in_memory_from_disk_and_in_tiles(
     np.testing.assert_array_equal(points_of(finished(tiles)), points_of([known]))
 
 
+@pytest.mark.rest(but="8.0")
 @pytest.mark.parametrize("size", [KEPT, GONE])
 def test_the_terrain_model_follows(size, cloud, corrections, tmp_path):
     dtm = tmp_path / "dtm.tif"
@@ -155,6 +157,7 @@ def test_a_later_polygon_counts_and_noise_and_first_returns_stay(tmp_path):
         classify(tmp_path / "old.las", out, corrections=known, **_size(GONE))
 
 
+@pytest.mark.rest
 def test_other_polygons_make_finished_tiles_anew(integers, corrections, tmp_path):
     folder, out = cut(tmp_path / "in", integers, 6), tmp_path / "out"
     how = {**_size(GONE), "corrections": corrections, "resume": True}
@@ -195,6 +198,7 @@ def edited(cloud, tmp_path):
     return path
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize("method", quick(METHODS, "grid-minimum"))
 def test_classes_changed_in_the_file_hold_run_after_run(method, edited, tmp_path):
     once, twice = tmp_path / "once.copc.laz", tmp_path / "twice.laz"
@@ -225,6 +229,7 @@ def test_a_run_remembers_its_classes_and_nothing_else_changes(edited, tmp_path):
     np.testing.assert_array_equal(still[order[1]], changed[order[0]])
 
 
+@pytest.mark.rest
 def test_points_that_nobody_changed_are_judged_anew(cloud, tmp_path):
     remembered, out, plain = (tmp_path / f"{name}.laz" for name in ("first", "second", "plain"))
     classify(cloud, remembered, remember_classes=True, **_size(GONE))
@@ -242,6 +247,7 @@ def test_a_point_set_to_never_classified_is_judged_anew(edited, tmp_path):
     assert set(_classes(out, MOUND)) == {2}
 
 
+@pytest.mark.rest
 def test_a_polygon_counts_more_than_the_file_which_does_not_remember_it(edited, tmp_path):
     out, again = tmp_path / "out.laz", tmp_path / "again.laz"
     known = _geojson(tmp_path / "known.geojson", (HALL, {"class": 2}), (MOUND, {"class": 9}))
@@ -254,6 +260,7 @@ def test_a_polygon_counts_more_than_the_file_which_does_not_remember_it(edited, 
     assert set(_classes(again, HALL)) == set(_classes(again, MOUND)) == {1}
 
 
+@pytest.mark.rest
 def test_changes_in_files_hold_in_tiles_and_with_heights(edited, integers, tmp_path):
     one, tiles = tmp_path / "one.laz", tmp_path / "tiles"
     how = {**_size(KEPT), "height_above_ground": True}

@@ -45,6 +45,7 @@ def outputs(folder):
     return {**rasters, "height_above_ground": True}
 
 
+@pytest.mark.rest
 def test_roads_on_the_ground_are_terrain_and_those_above_it_are_not(town, tmp_path):
     classify(town / "one.las", tmp_path / "out.las", **outputs(tmp_path))
     before, after = laspy.read(town / "one.las"), laspy.read(tmp_path / "out.las")
@@ -63,6 +64,7 @@ def test_roads_on_the_ground_are_terrain_and_those_above_it_are_not(town, tmp_pa
     assert (heights[flyover:] > BRIDGE - 0.7).all()
 
 
+@pytest.mark.rest
 def test_a_reserved_class_is_no_road(town, tmp_path):
     las = laspy.read(town / "one.las")
     flyover = slice(len(las) - 10 * SIDE, None)
@@ -91,6 +93,7 @@ def test_many_files_give_the_roads_of_one(town, tmp_path):
             np.testing.assert_array_equal(np.asarray(whole[column])[same], np.asarray(part[column]))
 
 
+@pytest.mark.rest
 def test_roads_that_wait_on_disk_are_the_same(town, tmp_path):
     for name, memory in (("memory", 4.0), ("disk", 0.001)):
         (tmp_path / name).mkdir()
@@ -104,6 +107,7 @@ def test_roads_that_wait_on_disk_are_the_same(town, tmp_path):
         assert memory == disk, name
 
 
+@pytest.mark.rest
 def test_known_ground_that_keeps_its_class_is_ground_for_the_rasters(town, tmp_path):
     classify(town / "one.las", tmp_path / "out.las", seed_classes=(ROAD,), **outputs(tmp_path))
     dtm = heights_of(tmp_path / "dtm.tif")
@@ -131,6 +135,7 @@ def test_water_stays_and_the_log_says_so(tmp_path, source):
         assert ("give --from-classes all." in text + told) == stays
 
 
+@pytest.mark.rest
 def test_overlap_that_is_left_out_is_in_no_raster(tmp_path):
     x, y = (axis.ravel() + 0.5 for axis in np.meshgrid(np.arange(40.0), np.arange(40.0)))
     both = np.concatenate([x, x[x > 20] + 0.2]), np.concatenate([y, y[x > 20]])
@@ -165,6 +170,7 @@ def test_the_classes_of_the_surface_can_be_chosen(tmp_path):
     assert code and "Choose other classes for the surface" in told
 
 
+@pytest.mark.rest(but="6.0")
 @pytest.mark.parametrize(("classes", "lowest"), [((2, 40), 6.0), ((2,), 9.8)])
 def test_water_above_its_bottom_is_no_canopy(tmp_path, classes, lowest):
     source = real("field2/topobathy.laz")

@@ -354,6 +354,7 @@ def test_the_list_of_commands_loads_nothing_slow():
     assert "key-points" in done.stdout
 
 
+@pytest.mark.rest(but="tin-densification")
 @pytest.mark.parametrize("method", METHODS)
 def test_a_raster_tells_which_rule_decided_each_cell(method, file, out, scene, capsys):
     rasterio = pytest.importorskip("rasterio")

@@ -96,6 +96,7 @@ def outputs(folder, source, name):
     }  # fmt: skip
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize("name", NAMES)
 def test_names_of_any_kind_go_through_every_command(las, tmp_path, request, name):
     if "\udcff" not in name:  # which is the one that processes could be unable to send
@@ -279,6 +280,7 @@ def identical(path, count=3_000_000):
     return path
 
 
+@pytest.mark.rest
 def test_points_of_next_to_no_bytes_are_read_and_more_than_that_refused(tmp_path):
     path = identical(tmp_path / "bomb.laz")
     assert path.stat().st_size < 40_000
@@ -309,6 +311,7 @@ def unpack(path, folder):
     wheels.unpack(path, folder, PACKAGE, Build.here())
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize("zeros", [80_000_000, pytest.param(200_000_000, marks=pytest.mark.long)])
 def test_a_wheel_that_grows_beyond_any_is_refused_before_it_is_unpacked(tmp_path, zeros):
     path = tmp_path / "bomb.whl"

@@ -117,6 +117,7 @@ def test_every_command_that_reads_points_takes_a_crs(feet, tmp_path):
     assert 10.0 < above.max() < 100.0
 
 
+@pytest.mark.rest
 def test_a_missing_crs_is_told_once(feet, tmp_path):
     las = laspy.read(feet)
     las.points = las.points[np.arange(0, len(las), 8)]
@@ -151,6 +152,7 @@ def test_written_clouds_keep_their_records(feet, tmp_path):
         assert bare_earth.info(tmp_path / name).epsg == 2231
 
 
+@pytest.mark.rest
 def test_copc_of_a_file_without_a_crs_states_the_given_one(feet, tmp_path):
     for given, epsg in (("EPSG:2230", 2230), (None, None)):
         words = (
@@ -177,6 +179,7 @@ def test_a_crs_that_is_given_is_as_one_that_the_file_states(feet, tmp_path):
     assert not np.array_equal(classes[0], classes[2])
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize(
     "options", quick([(), ("--height-above-ground",)], ("--height-above-ground",))
 )
@@ -213,6 +216,7 @@ def degrees(tmp_path):
     return path
 
 
+@pytest.mark.rest
 def test_coordinates_that_cannot_be_degrees_are_told_and_can_be_given_a_crs(degrees, tmp_path):
     dtm = "--dtm", tmp_path / "dtm.tif"
     for words in (

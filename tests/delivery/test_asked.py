@@ -36,6 +36,7 @@ def _by_library(cloud, target, *words):
     bare_earth.deliver(cloud, target, delivery="drone-site", crs=25832, **values)
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize("run", [_by_command, _by_library])
 def test_a_value_that_was_given_is_not_that_of_the_delivery(cloud, tmp_path, run, capsys):
     run(cloud, tmp_path / "usual")
@@ -59,6 +60,7 @@ def test_a_value_that_was_given_is_not_that_of_the_delivery(cloud, tmp_path, run
         assert not any("preset site" in line for line in lines)
 
 
+@pytest.mark.rest
 @pytest.mark.skipif(sys.platform in ("win32", "darwin"), reason="names of files are Unicode there")
 def test_a_name_that_is_not_utf_8_is_delivered(cloud, tmp_path):
     source = tmp_path / os.fsdecode(b"Gr\xf6\xdfe.laz")

@@ -154,6 +154,7 @@ def test_the_tables_are_complete():
     assert FILES.keys() == DELIVERIES.keys() and STATED.keys() == SPECIFICATIONS.keys()
 
 
+@pytest.mark.rest(but="drone-site")
 @pytest.mark.parametrize("name", list(FILES))
 def test_a_delivery_of_one_file_has_all_its_files(made, scene, name):
     summary, folder = made(name)
@@ -173,6 +174,7 @@ def test_a_delivery_of_one_file_has_all_its_files(made, scene, name):
     assert not any(".~" in text or str(folder.parent) in text for text in pages)
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize("name", quick(FILES, "forestry", "flood"))
 def test_two_files_get_the_same_as_one(made, scene, name):
     (one, folder), (many, other) = made(name), made(name, is_one=False)
@@ -241,6 +243,7 @@ def rows_of_classes(page):
     return {int(value): int(count.replace(",", "")) for value, count in found}
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize(
     ("specification", "distance", "is_one"),
     [
@@ -273,6 +276,7 @@ def test_ground_in_the_water_of_a_survey_has_the_classes_of_the_specification(
     assert {f"points/{Path(summary.cloud).name}"} <= set(record["files"])
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize("is_one", quick([True, False], False))
 def test_key_points_are_among_the_ground_that_water_leaves(scene, watered, tmp_path, is_one):
     how, folder = with_water(has_key_points=True), tmp_path / "out"
@@ -286,6 +290,7 @@ def test_key_points_are_among_the_ground_that_water_leaves(scene, watered, tmp_p
     assert written == ({"whole.laz"} if is_one else names)
 
 
+@pytest.mark.rest
 def test_the_lists_of_files_with_classes_of_water_are_those_of_their_places(scene, tmp_path):
     water, _ = given_water(0.71)
     how = {**QUICK, "format": "copc.laz", "overview": True}
@@ -341,6 +346,7 @@ def test_a_survey_is_as_the_base_specification_asks(made):
     assert summary.check.hold_out.all.rmse < 0.06
 
 
+@pytest.mark.rest
 def test_a_specification_brings_the_classes_that_it_asks_for(scene, tmp_path):
     how = {"specification": "ign", "hold_out_share": None, "method": "slope"}
     summary = deliver(scene[1], tmp_path / "out", **how)
@@ -375,6 +381,7 @@ def test_archaeology_has_a_terrain_with_the_house_on_it(made):
     assert np.percentile((with_house - dtm)[wood], 95) < 0.3
 
 
+@pytest.mark.rest
 def test_options_of_the_user_replace_those_of_the_delivery(scene, tmp_path):
     summary = deliver(
         scene[1], tmp_path / "out", delivery="archaeology", preset="flat", ground_tolerance=0.3,
@@ -387,6 +394,7 @@ def test_options_of_the_user_replace_those_of_the_delivery(scene, tmp_path):
     assert 0 < marked.sum() < summary.ground_count / 4
 
 
+@pytest.mark.rest
 def test_checkpoints_are_compared_with_points_and_terrain_model(scene, tmp_path):
     x, y = np.meshgrid([60.0, 66.0, 72.0], [10.0, 45.0, 80.0])
     places = np.column_stack((x.ravel(), y.ravel(), ground_at(x, y).ravel() - 0.1))
@@ -405,6 +413,7 @@ def test_checkpoints_are_compared_with_points_and_terrain_model(scene, tmp_path)
     assert not (tmp_path / "far").exists()
 
 
+@pytest.mark.rest(but="0.0")
 @pytest.mark.parametrize("share", [0.0, 0.3, 1.0])
 def test_a_cancel_leaves_nothing_of_one_file(scene, tmp_path, share):
     with pytest.raises(Cancelled):
@@ -412,6 +421,7 @@ def test_a_cancel_leaves_nothing_of_one_file(scene, tmp_path, share):
     assert os.listdir(tmp_path) == []
 
 
+@pytest.mark.rest
 def test_many_files_can_be_continued_after_a_cancel(scene, tmp_path):
     target = tmp_path / "out"
     with pytest.raises(FinishedFilesStay):
@@ -440,6 +450,7 @@ def classes_by_file(folder):
     return {path.name: classes_of(path) for path in (folder / "points").glob("*.laz")}
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize(
     ("count", "has_key_points"),
     [
@@ -471,6 +482,7 @@ def test_files_with_classes_of_water_can_be_continued_after_a_cancel(
     assert files_of(target) == files_of(folder)
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize("resume", quick([True, False], True))
 def test_a_second_run_classifies_files_with_classes_of_water_again(
     scene, watered, tmp_path, resume
@@ -493,6 +505,7 @@ def test_a_second_run_classifies_files_with_classes_of_water_again(
     assert not any((value == 9).any() for value in classes_by_file(target).values())
 
 
+@pytest.mark.rest
 def test_an_error_while_files_move_to_their_places_leaves_no_false_record(
     scene, watered, tmp_path, monkeypatch
 ):
@@ -517,6 +530,7 @@ def test_an_error_while_files_move_to_their_places_leaves_no_false_record(
     )
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize("is_one", quick([True, False], False))
 def test_a_delivery_is_kept_beside_an_old_one_that_a_program_has_open(
     scene, tmp_path, windows, is_one
@@ -559,6 +573,7 @@ def test_a_cancel_before_any_file_is_done_leaves_nothing_of_many(scene, tmp_path
     assert not isinstance(stopped.value, FinishedFilesStay) and os.listdir(tmp_path) == []
 
 
+@pytest.mark.rest
 def test_a_file_that_cannot_be_read_is_named_on_the_page(scene, tmp_path):
     tiles = tmp_path / "tiles"
     shutil.copytree(scene[2], tiles)
@@ -578,6 +593,7 @@ def test_an_error_names_the_folder_of_the_user(scene, tmp_path):
     assert ".~" not in str(error.value) and os.listdir(tmp_path) == ["water.laz"]
 
 
+@pytest.mark.rest
 def test_a_delivery_replaces_an_earlier_one_and_nothing_else(scene, tmp_path):
     target = tmp_path / "out"
     deliver(scene[1], target, **{**SMALL, "delivery": "flood"})
@@ -650,6 +666,7 @@ def test_a_new_delivery_is_one_row(toy, scene, tmp_path, capsys):
     assert summary.cell_size == 2.0 and set(summary.layers) == {"dtm", "contours"}
 
 
+@pytest.mark.rest
 def test_the_command_prints_what_matters(made, scene, tmp_path, capsys):
     summary, _ = made("survey")
     target = tmp_path / "out"
@@ -681,6 +698,7 @@ def test_the_command_prints_what_matters(made, scene, tmp_path, capsys):
     )
 
 
+@pytest.mark.rest
 def test_checkpoints_are_among_what_the_command_prints(scene, tmp_path, capsys):
     x, y = np.array([5.0, 60.0, 70.0]), np.array([5.0, 50.0, 85.0])
     rows = zip(x + EAST, y + NORTH, ground_at(x, y))
@@ -698,6 +716,7 @@ def test_checkpoints_are_among_what_the_command_prints(scene, tmp_path, capsys):
     assert re.search(r"^checkpoints RMSE 0\.\d{3} m, mean [+-]0\.\d{3} m, of 3$", rows[1])
 
 
+@pytest.mark.rest
 def test_many_files_with_heights_are_done_already_after_a_finished_delivery(made, scene, tmp_path):
     target, progress = tmp_path / "out", Heard()
     first, folder = made("forestry", is_one=False)
@@ -713,6 +732,7 @@ def test_many_files_with_heights_are_done_already_after_a_finished_delivery(made
     assert second.ground_count == first.ground_count == first.class_counts[2]
 
 
+@pytest.mark.rest
 def test_records_of_many_files_are_not_among_the_points(scene, tmp_path):
     target, progress = tmp_path / "out", Heard()
     deliver(scene[2], target, **SMALL)
@@ -754,6 +774,7 @@ def line(*corners):
     return np.add(corners, (EAST, NORTH, 0.0))
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize("is_one", quick([True, False], False))
 def test_water_and_lines_of_the_user_are_delivered_with_their_heights(scene, tmp_path, is_one):
     # A lake, a river across both files, water without ground near it; a dyke, and an edge.
@@ -815,6 +836,7 @@ def test_water_and_lines_of_the_user_are_delivered_with_their_heights(scene, tmp
     assert row["LEVEL"] == pytest.approx(level, abs=0.02)
 
 
+@pytest.mark.rest
 def test_breaklines_of_the_user_are_delivered_beside_water_that_was_found(scene, tmp_path):
     dyke = line((5.0, 45.0, 107.0), (12.0, 45.0, 107.5))
     how = {"hold_out_share": None, "method": "slope", "breaklines": (dyke,)}

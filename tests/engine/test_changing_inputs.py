@@ -91,6 +91,7 @@ def undisturbed(tmp_path_factory):
     return of
 
 
+@pytest.mark.rest(but="0.5-classify-written over-.laz")
 @pytest.mark.parametrize("suffix", [pytest.param(".las", marks=pytest.mark.long), ".laz"])
 @pytest.mark.parametrize("change", CHANGES)
 @pytest.mark.parametrize("name", RUNS)
@@ -118,6 +119,7 @@ def test_a_changed_input_is_told_or_made_no_difference(
     assert not list(tmp_path.glob(".*"))
 
 
+@pytest.mark.rest(but="written over-0.8")
 @pytest.mark.parametrize(("change", "when"), covering(list(CHANGES), [0.4, 0.6, 0.1, 0.8]))
 def test_a_changed_tile_of_a_survey_is_told_or_made_no_difference(tmp_path, change, when):
     def survey(name, progress=None):

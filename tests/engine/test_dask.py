@@ -127,6 +127,7 @@ def survey(tmp_path_factory):
     return folder / "in", bytes_of(folder / "threads")
 
 
+@pytest.mark.rest
 def test_a_cluster_gives_the_same_bytes(dask, survey, tmp_path):
     folder, expected = survey
     words = ["classify", folder, tmp_path / "out", "--scheduler", dask[0]]
@@ -134,6 +135,7 @@ def test_a_cluster_gives_the_same_bytes(dask, survey, tmp_path):
     assert bytes_of(tmp_path / "out") == expected
 
 
+@pytest.mark.rest
 def test_a_scheduler_that_is_not_there_is_told(survey, tmp_path, monkeypatch, capsys):
     monkeypatch.setattr(cluster_module, "_CONNECTING", "1s")
     words = ["classify", survey[0], tmp_path / "out"]
@@ -145,6 +147,7 @@ def test_a_scheduler_that_is_not_there_is_told(survey, tmp_path, monkeypatch, ca
 KEYS = ("tls.ca-file", "tls.client.cert", "tls.client.key")
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize(
     ("scheme", "settings", "told"),
     [
@@ -162,12 +165,14 @@ def test_an_address_that_the_keys_do_not_fit_is_refused(scheme, settings, told, 
         classify([survey[0]], tmp_path / "out", scheduler=address, **FAST)
 
 
+@pytest.mark.rest
 def test_workers_of_another_version_are_refused(dask, survey, tmp_path, monkeypatch):
     monkeypatch.setattr(version, "__version__", "99.9")
     with pytest.raises(BareEarthError, match=r"has version .* and this computer 99\.9"):
         classify([survey[0]], tmp_path / "out", scheduler=dask[0], **FAST)
 
 
+@pytest.mark.rest
 def test_a_cancel_leaves_the_finished_tiles(dask, survey, tmp_path):
     folder, expected = survey
     progress, out = CancelAtFirstFile(), tmp_path / "out"
@@ -178,6 +183,7 @@ def test_a_cancel_leaves_the_finished_tiles(dask, survey, tmp_path):
     assert summary.kept_count >= 1 and bytes_of(out) == expected
 
 
+@pytest.mark.rest
 @pytest.mark.skipif(os.name == "nt", reason="it kills by signals")
 def test_a_worker_that_is_killed_loses_nothing(dask, survey, tmp_path):
     address, worker, *_ = dask
@@ -202,6 +208,7 @@ def test_a_worker_that_is_killed_loses_nothing(dask, survey, tmp_path):
     assert not temporary_in(out)
 
 
+@pytest.mark.rest
 def test_a_scheduler_that_ends_is_told_and_the_run_goes_on_without_it(clusters, survey, tmp_path):
     address, *_, scheduler = clusters(1)
     folder, expected = survey

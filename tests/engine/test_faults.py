@@ -371,6 +371,7 @@ def small_inputs(tmp_path_factory):
         return _made_inputs(tmp_path_factory.mktemp("small"), 2_000, 70.0, run)
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize("name", COMMANDS)
 def test_a_rename_that_fails_is_told_and_one_that_was_done_counts(
     name, small_inputs, tmp_path, monkeypatch, capsys, threads_for_processes

@@ -56,6 +56,7 @@ def source(tmp_path_factory):
     return write_points(tmp_path_factory.mktemp("imports") / "a.laz", x, y, 0.05 * x)
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize(
     ("outputs", "unneeded"), [((), {**_NEVER, **_SELDOM}), (("--dtm", "--contours"), _NEVER)]
 )
@@ -87,6 +88,7 @@ def test_modules_are_imported_early_and_missing_ones_are_left_alone(monkeypatch)
     assert asked == ["present", "missing"] and not failed
 
 
+@pytest.mark.rest
 def test_what_waits_for_its_import_can_be_used_as_always():
     code = (
         "from bare_earth.algorithms.core import imports\n"

@@ -34,6 +34,7 @@ STEPS = {
 }
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize("name", quick(STEPS, "surface"))
 def test_a_block_takes_about_as_much_as_is_reckoned(name):
     random, step = np.random.default_rng(1), STEPS[name]
@@ -52,6 +53,7 @@ def test_a_block_takes_about_as_much_as_is_reckoned(name):
     assert 0.3 * reckoned < peak < reckoned
 
 
+@pytest.mark.rest
 @pytest.mark.skipif(sys.platform != "linux", reason="Only Linux tells the peak of a process")
 def test_jobs_in_processes_take_no_more_memory_than_was_planned(tmp_path):
     folder = cut(tmp_path / "in", strip(500_000, 450.0, 320.0), 4)

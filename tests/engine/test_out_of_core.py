@@ -96,6 +96,7 @@ def same_in_memory_and_on_disk(source, folder, method, **options):
     return much[0]
 
 
+@pytest.mark.rest(but="tin-densification")
 @pytest.mark.parametrize(
     ("method", "options"),
     [
@@ -127,17 +128,20 @@ def test_the_same_bytes_in_memory_and_on_disk(small, tmp_path, method, options):
     assert little.fractions[-1] == 1.0 and little.fractions == sorted(little.fractions)
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize("name", [pytest.param("isprs/samp52.laz", marks=LONG), "real/ign_pf8.las"])
 def test_real_points_give_the_same_bytes_in_memory_and_on_disk(name, tmp_path):
     same_in_memory_and_on_disk(real(name), tmp_path, "grid-minimum", rasters=("dtm",))
 
 
+@pytest.mark.rest
 def test_ground_points_only_in_memory_and_on_disk(small, tmp_path):
     source = write(tmp_path / "in.las", 8000, shape=(130.0, 70.0))
     summary = same_in_memory_and_on_disk(source, tmp_path, "grid-minimum", ground_only=True)
     assert summary.class_counts == {2: summary.ground_count}
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize(
     ("name", "free"),
     [*(pytest.param(name, 0, marks=LONG) for name in ("in.las", "in.laz")), ("in.laz", 1 << 40)],
@@ -157,6 +161,7 @@ def test_heights_above_ground_in_memory_and_on_disk(small, tmp_path, monkeypatch
 # Stray points
 
 
+@pytest.mark.rest(but="tin-densification")
 @pytest.mark.parametrize(("method", "size"), covering(list(METHODS), list(SIZES)))
 def test_a_stray_point_far_away_stops_nothing(method, size, tmp_path):
     source = write(tmp_path / "in.las", 8000, stray=(1e6, 1e6, 1e6))
@@ -171,6 +176,7 @@ def test_a_stray_point_far_away_stops_nothing(method, size, tmp_path):
 # Limits
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize("kind", [pytest.param("las", marks=LONG), "laz"])
 def test_a_copc_file_is_made_of_points_that_do_not_fit(small, small_nodes, kind, tmp_path):
     source, sorted_on_disk = write(tmp_path / f"in.{kind}"), []
@@ -225,6 +231,7 @@ def test_the_same_errors_on_disk(options, words, tmp_path):
 # Ends
 
 
+@pytest.mark.rest(but="0.3-much")
 @pytest.mark.parametrize(("fraction", "size"), covering((0.3, 0.6, 0.95), list(SIZES)))
 def test_a_cancel_leaves_nothing(small, fraction, size, tmp_path):
     source = write(tmp_path / "in.las", 8000, shape=(130.0, 70.0))
@@ -248,6 +255,7 @@ sys.exit(cli.main(sys.argv[1:]))
 """
 
 
+@pytest.mark.rest
 @pytest.mark.skipif(os.name == "nt", reason="Windows ends a process without telling it")
 @pytest.mark.parametrize(
     ("module", "number"),

@@ -56,6 +56,7 @@ def moves_evenly(name, folder, memory):
     assert pace.stay <= _LONGEST_STAY and pace.rest <= 2.0, pace
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize("name", quick(_NAMES, "Point cloud to terrain"))
 def test_a_bar_never_stands_still(name, folder):
     moves_evenly(name, folder, 4.0)

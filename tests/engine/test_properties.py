@@ -62,6 +62,7 @@ def ground_of(survey, method, east=EAST, north=NORTH, **options):
         return classes_of(target) == 2
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize("method", quick(METHODS, "slope"))
 @SETTINGS
 @given(survey=surveys(), seed=st.integers(0, 1000))
@@ -71,6 +72,7 @@ def test_labels_do_not_depend_on_the_order_of_the_points(method, survey, seed):
     assert np.array_equal(ground_of(shuffled, method), ground_of(survey, method)[order])
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize("method", quick(METHODS, "tin-densification"))
 @SETTINGS
 @given(survey=surveys(), east=st.integers(-50, 50), north=st.integers(-50, 50))
@@ -79,6 +81,7 @@ def test_labels_do_not_depend_on_where_the_survey_lies(method, survey, east, nor
     assert np.array_equal(ground_of(survey, method, **moved), ground_of(survey, method))
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize("method", quick(METHODS, "grid-minimum"))
 @SETTINGS
 @given(survey=surveys(), up=st.integers(-400, 8000))
@@ -142,6 +145,7 @@ def test_a_plane_is_all_ground(method, count, angle, azimuth, seed):
     assert not lost[inside].any() and np.count_nonzero(lost) <= 2
 
 
+@pytest.mark.rest
 @SETTINGS
 @given(
     seed=st.integers(0, 10_000), count=st.integers(50, 1500), a=st.floats(-2.0, 2.0),
@@ -176,6 +180,7 @@ def test_the_terrain_model_of_a_plane_is_the_plane(seed, count, a, b, cell):
     assert np.allclose(heights[row, column], truth, atol=1e-6)
 
 
+@pytest.mark.rest
 @SETTINGS
 @given(survey=surveys(), threads=st.integers(1, 4), memory=st.sampled_from([0.001, 0.01, 4.0]))
 def test_labels_do_not_depend_on_threads_and_memory(survey, threads, memory):
@@ -183,6 +188,7 @@ def test_labels_do_not_depend_on_threads_and_memory(survey, threads, memory):
     assert np.array_equal(found, ground_of(survey, METHODS[0]))
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize("method", quick(METHODS, "tin-densification"))
 @SETTINGS
 @given(survey=surveys(1500), far=st.integers(5, 900))

@@ -35,6 +35,7 @@ def _rows(paths, *names):
     return rows[np.lexsort(rows.T)]
 
 
+@pytest.mark.rest
 def test_classes_rasters_and_heights_of_many_files_in_one_go(survey, tmp_path):
     words = ["--method", "slope", "--height-above-ground"]
     dtm, shade = tmp_path / "dtm.tif", tmp_path / "shade.tif"
@@ -51,6 +52,7 @@ def test_classes_rasters_and_heights_of_many_files_in_one_go(survey, tmp_path):
     assert not list((tmp_path / "out" / ".bare-earth").glob("waiting*"))
 
 
+@pytest.mark.rest
 def test_ground_alone_of_many_files_with_heights_and_without(survey, tmp_path):
     bare_earth.classify(survey, tmp_path / "all.laz", **FAST)
     ground = _rows([tmp_path / "all.laz"], "classification")
@@ -68,6 +70,7 @@ def test_of_ground_alone_there_is_no_surface_of_many_files(survey, tmp_path):
         bare_earth.classify(tmp_path / "in", tmp_path / "out", dsm=dsm, ground_only=True, **FAST)
 
 
+@pytest.mark.rest
 def test_the_expected_error_of_a_run_that_classifies_is_that_of_its_output(survey, tmp_path):
     # It is told from the points that are not ground as well.
     one, many, after = (tmp_path / f"{name}.tif" for name in ("one", "many", "after"))
@@ -77,6 +80,7 @@ def test_the_expected_error_of_a_run_that_classifies_is_that_of_its_output(surve
     assert one.read_bytes() == many.read_bytes() == after.read_bytes()
 
 
+@pytest.mark.rest
 def test_heights_go_on_where_a_run_ended(survey, tmp_path):
     sources, folder = tmp_path / "classified", tmp_path / "out"
     bare_earth.classify(tmp_path / "in", sources, **FAST)
@@ -89,6 +93,7 @@ def test_heights_go_on_where_a_run_ended(survey, tmp_path):
     assert [path.name for path in summary.tiles] == [path.name for path in finished(folder)]
 
 
+@pytest.mark.rest
 def test_key_points_of_many_files_are_as_good_as_those_of_one(survey, tmp_path):
     bare_earth.classify(tmp_path / "in", tmp_path / "classified", **FAST)
     bare_earth.classify(survey, tmp_path / "classified.laz", **FAST)
@@ -118,6 +123,7 @@ def test_the_public_functions_take_one_file_and_many(survey, tmp_path):
     assert again.kept_count == many.done_count
 
 
+@pytest.mark.rest
 def test_a_run_knows_nothing_of_what_its_sinks_make(survey, tmp_path):
     sinks = {name: CountPoints(tmp_path / f"{name}.csv") for name in ("one", "many", "classified")}
     count = Run((sinks["one"],)).work(Inputs(survey))

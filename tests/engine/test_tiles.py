@@ -89,6 +89,7 @@ def many(tmp_path_factory):
 # The same labels as those of one file
 
 
+@pytest.mark.rest(but="tin-densification")
 @pytest.mark.parametrize("method", METHODS)
 def test_tiles_get_the_labels_of_one_file_with_all_points(method, tmp_path, out):
     integers = strip(3500, 150.0, 75.0)
@@ -106,6 +107,7 @@ def test_tiles_get_the_labels_of_one_file_with_all_points(method, tmp_path, out)
         assert summary.point_count == len(integers)
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize(
     "name", ["isprs/samp52.laz", pytest.param("real/ign_pf8.las", marks=pytest.mark.long)]
 )
@@ -139,6 +141,7 @@ def test_a_tile_changes_in_nothing_but_its_classes(six, out):
         assert set(np.unique(after.classification)) == {1, 2}
 
 
+@pytest.mark.rest
 def test_processes_give_the_same_bytes_as_threads(many, out):
     progress = Heard()
     workers = Processes(Resources(threads=2))
@@ -163,6 +166,7 @@ def test_messages_that_differ_in_names_and_numbers_only_are_told_once(tmp_path, 
     )
 
 
+@pytest.mark.rest
 def test_tiles_larger_than_memory_give_the_same_bytes(tmp_path, out, monkeypatch):
     cut(tmp_path / "in", strip(60_000, 400.0, 200.0), 6)
     classify(tmp_path / "in", tmp_path / "much")
@@ -180,6 +184,7 @@ def test_tiles_larger_than_memory_give_the_same_bytes(tmp_path, out, monkeypatch
     assert counts and max(counts) <= 2000
 
 
+@pytest.mark.rest
 def test_copc_tiles_larger_than_their_share_of_memory_give_the_same_bytes(
     many, out, tmp_path, monkeypatch
 ):
@@ -209,6 +214,7 @@ def test_blocks_are_read_in_groups_that_fit_into_memory(six):
     assert len(grouped(grid, survey, places, 100, 1 << 40)) == 90
 
 
+@pytest.mark.rest
 def test_copc_files_of_which_only_parts_are_read_give_the_same(tmp_path, out):
     integers, blocks = strip(5000, 150.0, 75.0), Blocks(40.0, 8.0)
     folder = cut(tmp_path / "in", integers, 4)
@@ -235,6 +241,7 @@ def test_the_results_are_listed_in_a_virtual_point_cloud(six, out, tmp_path):
     assert len(read_vpc(tmp_path / "b.vpc")) == 6
 
 
+@pytest.mark.rest(but="las")
 @pytest.mark.parametrize("format", ["las", "laz", "copc.laz"])
 def test_the_format_can_be_chosen(format, six, out):
     classify(six, out, format=format)
@@ -280,6 +287,7 @@ def test_tiles_that_are_done_are_kept_when_a_run_goes_on(six, out):
     assert all(changed_times(out)[name] != after[name] for name in after)
 
 
+@pytest.mark.rest
 def test_other_parameters_or_inputs_make_tiles_anew_where_they_matter(six, out):
     classify(six, out, blocks=Blocks(40.0, 5.0))
     survey = dict(resume=True, blocks=Blocks(40.0, 5.0))
@@ -298,6 +306,7 @@ def test_other_parameters_or_inputs_make_tiles_anew_where_they_matter(six, out):
     assert after["5.laz"] != before["5.laz"] and after["0.laz"] == before["0.laz"]
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize(
     "added", [pytest.param(("0", "1"), marks=pytest.mark.long), ("9",)], ids=str
 )
@@ -342,6 +351,7 @@ def test_the_blocks_of_a_method_do_not_move_with_the_survey(tmp_path, out):
     assert anew == {"0.laz", "new.laz"}
 
 
+@pytest.mark.rest
 def test_runs_with_heights_go_on_and_repeat_only_what_changed(tmp_path, out):
     folder, integers = tmp_path / "in", strip(400, 60.0, 60.0)
     folder.mkdir()
@@ -388,6 +398,7 @@ sys.exit(cli.main(sys.argv[1:]))
 """
 
 
+@pytest.mark.rest
 @pytest.mark.skipif(os.name == "nt", reason="Windows has no such signals")
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGKILL])
 def test_a_killed_run_goes_on_and_gives_the_same_bytes(number, many, out):
@@ -418,6 +429,7 @@ def test_a_killed_run_goes_on_and_gives_the_same_bytes(number, many, out):
 # What goes wrong
 
 
+@pytest.mark.rest
 def test_broken_tiles_are_told_at_the_end_and_the_others_done(six, out, capsys):
     data = (six / "1.laz").read_bytes()
     (six / "1.laz").write_bytes(data[:900] + bytes(300) + data[1200:])
@@ -483,6 +495,7 @@ def test_a_stray_point_far_away_does_not_stop_a_survey(tmp_path, out):
     assert summary.done_count == 5 and not summary.failures
 
 
+@pytest.mark.rest
 @pytest.mark.skipif(os.name == "nt", reason="it kills by signals")
 @pytest.mark.parametrize("threads", [1, 2])
 def test_a_process_that_dies_loses_nothing(threads, many, out):
@@ -504,6 +517,7 @@ def test_a_process_that_dies_loses_nothing(threads, many, out):
     assert not temporary_in(out)
 
 
+@pytest.mark.rest
 @pytest.mark.skipif(os.name == "nt", reason="it kills by signals")
 def test_a_tile_that_kills_its_process_fails_alone(six, out):
     workers = replacing_jobs(Processes, instead_of("3.laz", DeadlyJob))
@@ -529,6 +543,7 @@ class FailingInTheEast(LabelGround):
         return super().in_block(visit, progress)
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize("heights", [False, True])
 def test_labelling_that_fails_fails_the_tiles_of_that_block_only(six, out, tmp_path, heights):
     def failing(job):
@@ -566,6 +581,7 @@ def test_one_block_is_worked_off_in_this_process(six, tmp_path, monkeypatch):
         classify_tiles([six], tmp_path / "many", FAST, workers=local, blocks=Blocks(20.0, 5.0))
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize("kind", [Threads, Processes])
 def test_a_cancel_is_heard_and_finished_tiles_stay(kind, many, out):
     folder, expected = many
@@ -580,6 +596,7 @@ def test_a_cancel_is_heard_and_finished_tiles_stay(kind, many, out):
     assert bytes_of(out) == expected
 
 
+@pytest.mark.rest
 def test_blocks_labelled_before_a_cancel_are_not_labelled_again(many, out):
     labels, run = (
         out / ".bare-earth" / "work",
@@ -620,6 +637,7 @@ def test_a_second_run_into_the_same_folder_is_refused_and_the_first_goes_on(six,
     assert again.kept_count == 6
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize("kind", [Threads, Processes])
 def test_a_job_may_use_the_threads_that_other_jobs_leave_free(kind, tmp_path):
     workers = kind(Resources(threads=2, memory=1.0))

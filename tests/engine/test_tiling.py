@@ -107,6 +107,7 @@ def test_every_point_lies_in_one_block_and_crowded_blocks_are_quartered():
     assert (times == 1).all() and sides == {40.0, 20.0, 10.0}
 
 
+@pytest.mark.rest(but="False-on disk")
 @pytest.mark.parametrize("waiting", ["in memory", "on disk"])
 @pytest.mark.parametrize("ordered", [True, False])
 def test_a_block_gets_the_points_of_its_window_that_take_part(tmp_path, request, waiting, ordered):
@@ -186,6 +187,7 @@ def test_files_of_one_scale_give_equal_numbers_for_equal_places():
     assert np.allclose(shifted.x - here.points(slice(None)).x, 0.005, atol=1e-9)
 
 
+@pytest.mark.rest
 def test_points_that_are_only_context_get_no_label_and_their_blocks_no_filter():
     x, y, z = survey(12_000, 220.0, 80.0)
     cloud, blocks = cloud_of(x, y, z), Blocks(80.0, 40.0)
@@ -202,6 +204,7 @@ def test_points_that_are_only_context_get_no_label_and_their_blocks_no_filter():
 # Stray points and messages
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize("method", quick(METHODS, "tin-densification"))
 def test_a_stray_point_far_away_changes_nothing_else(tmp_path, method):
     integers = surveys.strip(5000, 100.0, 75.0)

@@ -117,6 +117,7 @@ def test_jobs_that_need_a_file_at_the_same_time_unpack_it_once(source, tmp_path,
     assert len(begun) == 1 and [read_cloud(las).count for las in found] == [COUNT] * 3
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize("heights", [False, True])
 def test_a_survey_is_decompressed_once(tmp_path, monkeypatch, decompressed, heights):
     six = cut(tmp_path / "in", strip(4000, 150.0, 40.0))
@@ -131,6 +132,7 @@ def test_a_survey_is_decompressed_once(tmp_path, monkeypatch, decompressed, heig
     assert bytes_of(tmp_path / "once") == bytes_of(tmp_path / "often")
 
 
+@pytest.mark.rest
 def test_one_file_that_does_not_fit_is_decompressed_once(tmp_path, decompressed):
     source = write(tmp_path / "one.laz", strip(60_000, 400.0, 200.0))
     much, little, progress = tmp_path / "much.laz", tmp_path / "little.laz", Heard()
@@ -143,6 +145,7 @@ def test_one_file_that_does_not_fit_is_decompressed_once(tmp_path, decompressed)
     assert much.read_bytes() == little.read_bytes()
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize("is_shared", [False, True])
 def test_rasters_unpack_only_files_that_several_jobs_read(
     tmp_path, decompressed, monkeypatch, is_shared
@@ -159,6 +162,7 @@ def test_rasters_unpack_only_files_that_several_jobs_read(
     assert bool(unpacked) == is_shared
 
 
+@pytest.mark.rest
 def test_processes_find_what_another_one_unpacked(tmp_path):
     six = cut(tmp_path / "in", strip(4000, 150.0, 40.0))
     run = {"height_above_ground": True, **FAST}

@@ -37,6 +37,7 @@ def source(folder, start):
     return folder / "in.laz"
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize(("start", "count"), PLACES.values(), ids=PLACES)
 def test_a_run_thins_the_ground_once_a_block(tmp_path, samples, start, count):
     maps = "--dtm", tmp_path / "dtm.tif", "--hillshade", tmp_path / "shade.tif"
@@ -46,6 +47,7 @@ def test_a_run_thins_the_ground_once_a_block(tmp_path, samples, start, count):
     assert len(samples) == count
 
 
+@pytest.mark.rest
 def test_steps_find_the_same_without_memory_for_one_visit(tmp_path, samples):
     path, found = source(tmp_path, 1850), []
     for number, memory in enumerate((4.0, 0.01)):

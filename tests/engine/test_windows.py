@@ -72,7 +72,7 @@ def test_words_of_commands_are_quoted_for_windows(monkeypatch, word, shown):
 
 
 def test_shipped_code_does_nothing_that_windows_or_python_3_9_lack():
-    # `make test-systems` runs all in Python 3.9 where there is one.
+    # `make test-rest` runs all in Python 3.9 where there is one.
     wrong = [
         f"{place}: {text}"
         for place, node in nodes()

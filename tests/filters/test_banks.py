@@ -24,6 +24,7 @@ def _kept(method, x, y, z, which):
     return METHODS[method].classify(Points(x, y, z), parameters)[which].mean()
 
 
+@pytest.mark.rest(but="tin-densification")
 @pytest.mark.parametrize(
     ("bank", "method"),
     covering(
@@ -39,6 +40,7 @@ def test_banks_stay(method, bank):
     assert _kept(method, x, y, z, raised < 0.01) > 0.99
 
 
+@pytest.mark.rest(but="tin-densification")
 @pytest.mark.parametrize(("method", "bank"), covering(list(METHODS), [(0.8, 4.0), (1.2, 5.0)]))
 def test_banks_under_trees_stay(method, bank):
     height, width = bank
@@ -53,6 +55,7 @@ def test_banks_under_trees_stay(method, bank):
     assert _kept(method, x, y, z, (raised > 0.5 * height) & below & ~on_bush) > 0.5
 
 
+@pytest.mark.rest(but="tin-densification")
 @pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize(("height", "width"), [(0.6, 1.5), (1.2, 3.0)])
 def test_rows_of_plants_as_high_and_wide_as_a_bank_go(method, height, width):
@@ -62,6 +65,7 @@ def test_rows_of_plants_as_high_and_wide_as_a_bank_go(method, height, width):
     assert _kept(method, x, y, z, z - land > 0.35) < 0.08
 
 
+@pytest.mark.rest(but="tin-densification")
 @pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize("width", [1.0, 2.0])
 def test_walls_go(method, width):
@@ -78,6 +82,7 @@ def test_strips_of_long_grass_go(method):
     assert _kept(method, x, y, z, raised > 0.0) < 0.1
 
 
+@pytest.mark.rest(but="tin-densification")
 @pytest.mark.parametrize("method", METHODS)
 def test_cars_in_a_row_go(method):
     x, y, land, raised = _field(8.0, 1.4, 1.8)
@@ -86,6 +91,7 @@ def test_cars_in_a_row_go(method):
     assert _kept(method, x, y, z, raised > 0.7) < 0.05
 
 
+@pytest.mark.rest(but="tin-densification")
 @pytest.mark.parametrize("method", METHODS)
 def test_a_bank_is_the_same_in_any_order_of_the_points(method):
     x, y, land, raised = _field(4.0, 0.8, 3.0)

@@ -33,6 +33,7 @@ def warnings_of(cloud, parameters):
     return progress.warnings
 
 
+@pytest.mark.rest(but="tin-densification")
 @pytest.mark.parametrize("method", METHODS.values(), ids=METHODS)
 def test_a_wide_and_clean_survey_is_not_doubted(method):
     assert warnings_of(land(150, 150, outliers=0.001), method.parameters()) == []
@@ -47,6 +48,7 @@ def test_an_extent_smaller_than_the_largest_object_is_told(name):
     assert labels[method.size_parameter] in warning
 
 
+@pytest.mark.rest(but="tin-densification")
 @pytest.mark.parametrize(
     ("name", "values", "width"),
     [
@@ -64,6 +66,7 @@ def test_the_size_is_what_was_given(name, values, width):
     assert told == [True, False]
 
 
+@pytest.mark.rest
 def test_the_same_warning_of_several_blocks_is_told_once():
     cloud, progress = land(400, 30), Heard()
     blocks = Blocks(100.0, 50.0)

@@ -47,6 +47,7 @@ def test_points_at_one_place_are_classified_without_an_error(parameters, count):
     assert method_of(parameters).classify(together, parameters).all()
 
 
+@pytest.mark.rest(but="tin-densification")
 @pytest.mark.parametrize(
     ("method", "density", "slope"),
     covering(list(METHODS), [1.0, 4.0, 20.0], [0.0, 0.3]),
@@ -59,6 +60,7 @@ def test_houses_trees_and_low_noise_are_told_from_the_slope_they_stand_on(method
     assert not found[points.z < 95.0].any()
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize("parameters", PARAMETERS)
 def test_the_order_and_the_place_of_the_points_do_not_matter(parameters):
     classify, (points, _) = method_of(parameters).classify, village()
@@ -85,6 +87,7 @@ def test_a_cancel_ends_the_classification(parameters):
         method_of(parameters).classify(village()[0], parameters, CancelAt(0.3))
 
 
+@pytest.mark.rest(but="parameters6")
 @pytest.mark.parametrize("parameters", [*PARAMETERS, *CLASSIC])
 def test_progress_never_goes_back(parameters):
     progress = Heard()
@@ -93,6 +96,7 @@ def test_progress_never_goes_back(parameters):
     assert 0.9 < progress.fractions[-1] <= 1.0
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize(
     ("kind", "seed", "density"),
     [
@@ -119,6 +123,7 @@ def test_a_hall_goes_where_points_are_sparse(kind, seed, density):
         assert found[scene.ground].mean() > 0.98, name
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize("method", quick(METHODS, "tin-densification"))
 def test_a_raised_square_stays_where_points_of_its_ramp_are_sparse(method):
     scene = make("plaza", seed=4001, density=1.0)
@@ -126,6 +131,7 @@ def test_a_raised_square_stays_where_points_of_its_ramp_are_sparse(method):
     assert (labels == 2)[scene.ground].mean() > 0.99
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize(
     ("method", "seed"), [("slope", 806), pytest.param("grid-minimum", 801, marks=pytest.mark.long)]
 )
@@ -136,6 +142,7 @@ def test_the_topmost_tread_of_a_terrace_stays(method, seed):
     assert (labels == 2)[scene.ground].mean() > 0.95
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize(
     ("method", "seed"), [("tin-densification", 1106), ("slope", 1101), ("grid-minimum", 1101)]
 )
@@ -146,6 +153,7 @@ def test_a_dyke_stays_where_points_are_sparse(method, seed):
     assert (labels == 2)[scene.ground].mean() > 0.98
 
 
+@pytest.mark.rest(but="tin-densification")
 @pytest.mark.parametrize("method", METHODS)
 def test_caravans_in_rows_go(method):
     x, y = scatter(120.0, 4.0)
@@ -156,6 +164,7 @@ def test_caravans_in_rows_go(method):
     assert found[~caravan].mean() > 0.98
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize("method", quick(METHODS, "grid-minimum", "slope"))
 def test_a_raised_square_with_one_ramp_stays(method):
     scene = make("plaza", seed=504)
@@ -164,6 +173,7 @@ def test_a_raised_square_with_one_ramp_stays(method):
     assert found[~scene.ground].mean() < 0.05
 
 
+@pytest.mark.rest(but="tin-densification")
 @pytest.mark.parametrize("method", METHODS)
 def test_houses_with_steep_roofs_go(method):
     # Where the walls are low, such a roof is as steep beside them as the face of a cliff is.
@@ -186,6 +196,7 @@ def test_houses_with_steep_roofs_go(method):
     assert found[~roofs].mean() > 0.99
 
 
+@pytest.mark.rest(but="tin-densification")
 @pytest.mark.parametrize("method", METHODS)
 def test_noisy_ground_stays(method):
     # Points half a metre apart with noise of 0.1 m: few of them lie in a cell of a metre.
@@ -195,6 +206,7 @@ def test_noisy_ground_stays(method):
     assert found[~scene.ground].mean() < 0.25
 
 
+@pytest.mark.rest(but="tin-densification")
 @pytest.mark.parametrize("method", METHODS)
 def test_scattered_low_outliers_do_not_take_the_ground_of_a_dense_cloud_away(method):
     # Nearly each square metre has one.
@@ -208,6 +220,7 @@ def test_scattered_low_outliers_do_not_take_the_ground_of_a_dense_cloud_away(met
     assert any("Low outliers are scattered" in text for text in told.infos)
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize("method", quick(METHODS, "grid-minimum", "slope"))
 def test_scattered_points_of_images_take_no_ground_away(method):
     # In each 16th cell of a metre one point lies 1 to 12 m below the ground.
@@ -217,6 +230,7 @@ def test_scattered_points_of_images_take_no_ground_away(method):
     assert found[~scene.ground].mean() < 0.25
 
 
+@pytest.mark.rest(but="gorge-10.0-slope")
 @pytest.mark.parametrize("method", quick(METHODS, "grid-minimum", "slope"))
 @pytest.mark.parametrize(
     ("kind", "density"), [("gorge", 10.0), pytest.param("quarry", 10.0, marks=pytest.mark.long)]
@@ -233,6 +247,7 @@ def test_breaks_stay_where_points_are_dense(method, kind, density, request):
 SOME_SAMPLES = ("samp11", "samp31", "samp54")
 
 
+@pytest.mark.rest(but="tin-densification")
 @pytest.mark.skipif(not data.isprs(), reason="the ISPRS samples are not here")
 @pytest.mark.parametrize(
     ("method", "samples", "most_error", "least_kappa"),
@@ -258,6 +273,7 @@ def test_the_isprs_samples_come_out_as_measured(method, samples, most_error, lea
     assert np.mean([result.kappa for result in found]) >= least_kappa
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize(
     ("method", "name"), covering(list(METHODS), ["solar-tilted", "rows-planters"])
 )

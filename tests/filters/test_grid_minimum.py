@@ -143,6 +143,7 @@ def test_a_preset_gives_what_is_left_empty_and_nothing_else():
     )  # fmt: skip
 
 
+@pytest.mark.rest
 def test_the_preset_says_how_large_a_hall_may_be():
     x, y = scatter(size=120.0, density=4.0)
     hall = (np.abs(x - 60.0) < 30.0) & (np.abs(y - 60.0) < 30.0)

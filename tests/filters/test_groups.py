@@ -41,6 +41,7 @@ def square(x, y, z, side=1.5, count=9):
     return [(x + east, y + north, z) for east in steps for north in steps]
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize(("kind", "method"), covering(LOW_KINDS, list(METHODS)))
 def test_no_low_group_is_ground_and_all_are_low_noise(kind, method):
     scene = make(kind, seed=8, size=70.0)
@@ -61,6 +62,7 @@ def test_low_groups_are_found_at_any_density(density):
     assert np.array_equal(found, scene.classes == 7)
 
 
+@pytest.mark.rest
 def test_groups_of_a_meadow_that_someone_reported_go_with_all_methods():
     cloud = read_cloud(real("field/low-groups-meadow.laz"))
     for method in METHODS.values():
@@ -123,6 +125,7 @@ def lake(returns, noise, behind_dam=False, seed=0):
     return points, np.arange(points.count) >= np.count_nonzero(kept)
 
 
+@pytest.mark.rest(but="tin-densification")
 @pytest.mark.parametrize(
     ("method", "share_and_noise"), covering(list(METHODS), [(0.1, 0.03), (0.05, 0.05), (0.3, 0.02)])
 )
@@ -134,6 +137,7 @@ def test_returns_below_a_lake_are_low_noise(method, share_and_noise):
     assert not found.low[~below].any() and found.ground[~below].mean() > 0.999
 
 
+@pytest.mark.rest(but="tin-densification")
 @pytest.mark.parametrize("method", METHODS)
 def test_returns_below_a_lake_that_someone_reported_are_low_noise(method):
     path = real("field2/water-noise-below.laz")
@@ -190,12 +194,14 @@ def test_classic_presets_leave_nothing_out():
         assert method.ground(points, method.parameters(preset=method.classic)).low is None
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize("density", [1.0, 6.0])
 def test_birds_are_high_groups(density):
     scene = make("birds", seed=11, density=density)
     assert np.array_equal(HighGroups().find(scene.points), scene.classes == 18)
 
 
+@pytest.mark.rest(but="open_forest")
 @pytest.mark.parametrize("kind", ["power_lines", "open_forest", "sea_cliff", "city_blocks"])
 def test_wires_trees_cliffs_and_roofs_are_no_high_groups(kind):
     scene = make(kind, seed=12, size=90.0)
@@ -222,6 +228,7 @@ def test_a_point_far_from_all_others_is_not_judged():
     assert not HighGroups().find(points).any()
 
 
+@pytest.mark.rest
 def test_high_groups_become_class_18_where_wanted_and_are_never_ground():
     scene = make("birds", seed=13, size=80.0)
     high = scene.classes == 18
@@ -241,6 +248,7 @@ def test_surfaces_leave_out_what_is_high_noise_by_default():
     assert Selection().high_noise_height == HighGroups().height
 
 
+@pytest.mark.rest
 def test_birds_that_someone_reported_are_not_in_the_surface(tmp_path):
     out, chm = tmp_path / "out.laz", tmp_path / "chm.tif"
     classify(real("field/birds.laz"), out, chm=chm, high_noise_class=True)
@@ -248,6 +256,7 @@ def test_birds_that_someone_reported_are_not_in_the_surface(tmp_path):
     assert np.nanmax(heights_of(chm)) < 25.0
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize("classify_first", [True, False])
 def test_no_bird_is_in_a_surface_or_canopy_model(tmp_path, classify_first):
     scene, path = make("birds", seed=14, size=100.0), tmp_path / "birds.las"

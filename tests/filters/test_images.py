@@ -22,6 +22,7 @@ def block():
     return Points(x, y, np.where(before < 0.0, HEIGHT, foot) + noise), before
 
 
+@pytest.mark.rest(but="tin-densification")
 @pytest.mark.parametrize("method", METHODS.values(), ids=METHODS)
 def test_the_foot_of_a_wall_is_ground_in_images_only(block, method):
     points, before = block

@@ -59,6 +59,7 @@ def crops(cloud):
         yield np.flatnonzero(left), far[left]
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize("parameters", PARAMETERS, ids=METHODS)
 def test_what_is_cut_off_changes_nothing_farther_away_than_the_filter_looks(parameters, wide):
     whole, _ = classify_cloud(wide, parameters)
@@ -105,6 +106,7 @@ def test_files_in_the_west_change_nothing_far_away(method, wide, tmp_path):
     assert len(found) > 3_000 and np.array_equal(found, whole)
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize("method", quick(METHODS, "slope"))
 def test_quartering_crowded_blocks_changes_no_label_of_a_real_survey(method):
     parameters = METHODS[method].parameters()

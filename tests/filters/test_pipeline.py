@@ -80,6 +80,7 @@ def test_a_rule_changes_only_what_it_says(method, preset):
 
 
 # What a method shares with another one is left out of one of them, of all in the long tests.
+@pytest.mark.rest
 @pytest.mark.parametrize(
     ("method", "shared"),
     [

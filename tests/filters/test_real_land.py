@@ -49,6 +49,7 @@ def check(name: str, method: str, phase: int) -> None:
     assert found.dtm.spikes.count + found.dtm.pits.count <= limits.off
 
 
+@pytest.mark.rest(but="tin-densification")
 @pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize("name", LIMITS)
 def test_real_land_comes_out_as_measured(name, method):

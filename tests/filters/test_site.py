@@ -42,6 +42,7 @@ def kept(tmp_path):
     return kept
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize("method", quick(METHODS, "grid-minimum"))
 def test_earth_stays_and_machines_go(kept, method):
     heaps, berms, roads, machines, containers = kept("earthworks", method, "site")
@@ -51,6 +52,7 @@ def test_earth_stays_and_machines_go(kept, method):
     assert kept("earthworks", method, "automatic")[1] < 0.75
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize("method", quick(METHODS, "slope"))
 def test_earth_stays_and_machines_go_in_points_from_images(kept, method):
     heaps, berms, roads, machines, containers = kept("earthworks_images", method, "site")

@@ -55,6 +55,7 @@ def cloud(kind, random):
     return Points(x, y, z)
 
 
+@pytest.mark.rest(but="grid-False")
 @pytest.mark.parametrize(
     ("kind", "slope_norm"), covering(["random", "grid", "duplicates", "clumps"], [True, False])
 )
@@ -73,6 +74,7 @@ def test_brute_force_agrees_on_every_point(kind, slope_norm):
         assert np.array_equal(classify(points, parameters), by_brute_force(points, parameters))
 
 
+@pytest.mark.rest
 def test_brute_force_agrees_on_houses_trees_and_noise():
     points, _ = village(size=24.0)
     for radius in (2.0, 10.0):
@@ -81,6 +83,7 @@ def test_brute_force_agrees_on_houses_trees_and_noise():
         assert np.array_equal(classify(points, parameters), by_brute_force(points, parameters))
 
 
+@pytest.mark.rest(but="1.0")
 @pytest.mark.parametrize("radius", [0.5, 1.0])
 def test_the_classic_filter_gives_the_same_in_blocks_and_in_threads(radius, monkeypatch):
     points, _ = village(size=60.0)
@@ -186,6 +189,7 @@ def test_what_is_chosen_from_the_data_is_said_and_gives_the_same_when_given_by_h
     assert len(heard.texts) == 1
 
 
+@pytest.mark.rest(but="0.3-0.0")
 @pytest.mark.parametrize(("slope", "aspect"), covering([0.3, 0.7, 1.0, 1.5], [0.0, 0.8, 3.0]))
 def test_a_plain_slope_is_all_ground_up_to_its_borders(slope, aspect):
     x, y = scatter()
@@ -201,6 +205,7 @@ def test_a_building_wider_than_twice_the_search_radius_is_taken_for_a_hill():
     assert classify(points, SlopeFilter(search_radius=5.0))[roof].mean() > 0.9
 
 
+@pytest.mark.rest(but="0.0-1.0")
 @pytest.mark.parametrize("width", [0.5, 1.0, 1.5])
 @pytest.mark.parametrize("slope", [0.0, 0.4])
 def test_low_outliers_alone_or_in_clusters_do_not_pull_the_ground_down(width, slope):

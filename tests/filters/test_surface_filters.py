@@ -24,6 +24,7 @@ def classify(name, points, **values):
     return method.classify(points, method.parameters(**values), Progress())
 
 
+@pytest.mark.rest(but="0.1-slope")
 @pytest.mark.parametrize("slope", quick([0.0, 0.05, 0.1], 0.1))
 def test_a_hall_of_120_by_80_m_goes_on_level_ground_and_on_a_slope(name, slope):
     points, ground = large_hall(slope)
@@ -49,6 +50,7 @@ def test_an_even_slope_is_ground_from_top_to_bottom_of_each_cell(name):
     assert classify(name, points).mean() > 0.99
 
 
+@pytest.mark.rest(but="slope")
 def test_a_larger_tolerance_never_takes_ground_away(name):
     points, _ = village(slope=0.2)
     narrow = classify(name, points, ground_tolerance=0.1, slope_tolerance=0.7)

@@ -25,6 +25,7 @@ def contents(count=200_000, seed=1):
     return BlockPoints(points, known, wanted, np.arange(count))
 
 
+@pytest.mark.rest
 def test_near_points_known_ground_and_the_lowest_of_cells_stay():
     whole = contents(500_000)
     west, south, east, north = BOX
@@ -64,6 +65,7 @@ def village(side=112.0, density=3.0):
     return np.round(np.column_stack((x, y, z)) * 100).astype(np.int64)
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize("method", ["grid-minimum", "tin-densification"])
 def test_blocks_with_thinned_surroundings_give_the_labels_of_the_whole(
     tmp_path, monkeypatch, method

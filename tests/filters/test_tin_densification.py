@@ -1,6 +1,7 @@
 """TIN densification on scenes with known truth, and on the labelled samples where they are."""
 
 import numpy as np
+import pytest
 
 from bare_earth import Progress
 from bare_earth.algorithms.core.points import Points
@@ -44,6 +45,7 @@ def test_a_building_wider_than_the_maximum_building_size_is_taken_for_a_hill():
     assert classify(points, TinDensification(max_building_size=10.0))[roof].mean() > 0.9
 
 
+@pytest.mark.rest
 def test_a_smaller_iteration_distance_never_adds_ground():
     points, _ = village(slope=0.4)
     near = classify(points, TinDensification(iteration_distance=0.2, iteration_angle=30.0))
@@ -75,6 +77,7 @@ def test_a_preset_gives_what_is_left_empty_and_nothing_else():
     assert chosen == (20.0, 9.0, 1.4)
 
 
+@pytest.mark.rest
 def test_automatic_looks_for_halls_larger_than_usual():
     x, y = scatter(size=200.0, density=1.5)
     hall = (np.abs(x - 100.0) < 40.0) & (np.abs(y - 100.0) < 35.0)
@@ -93,6 +96,7 @@ def test_known_ground_is_a_seed_where_the_grid_sees_an_object():
     assert classify(points, TinDensification(), known_ground=known)[mound].mean() > 0.9
 
 
+@pytest.mark.rest
 def test_key_points_are_few_and_their_tin_is_within_the_tolerance():
     points, _ = village()
     ground = classify(points, TinDensification())

@@ -120,6 +120,7 @@ def test_split_pulses_tell_woods():
     assert not state.grids[0].woods.any()
 
 
+@pytest.mark.rest(but="tin-densification")
 @pytest.mark.parametrize("method", METHODS)
 def test_shrubs_in_woods_are_less_often_ground_where_returns_are_known(method):
     points, of_several, shrub = wood()
@@ -148,6 +149,7 @@ def _on_cells(heights):
     return Points(columns.ravel(), rows.ravel(), heights.ravel().copy()), 1.0, 1.0
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize(
     ("tile", "most"),
     [
@@ -245,6 +247,7 @@ def test_shrubs_can_stay_where_it_is_open():
     assert np.isin(np.flatnonzero(of_shrub), state.seeds).mean() < 0.2
 
 
+@pytest.mark.rest
 def test_shrubs_are_not_looked_for_where_seeds_are_far_apart():
     # Blocks of a few metres over as much land would be refused for want of memory.
     random = np.random.default_rng(7)

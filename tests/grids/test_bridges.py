@@ -226,6 +226,7 @@ def cloud_of(points, **others):
     return surveys.cloud_of(*(np.round(values * 100) for values in points), **others)
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize("method", quick(METHODS, "tin-densification"))
 def test_a_bridge_is_other_or_of_the_class_that_is_wanted(method):
     (points, deck), parameters = SCENES["underpass"], METHODS[method].parameters()

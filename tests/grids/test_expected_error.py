@@ -139,6 +139,7 @@ def test_the_share_over_a_limit_is_a_twentieth_at_the_expected_error():
     assert expected_rmse(np.array([0.2, 0.2, np.nan])) < 0.2
 
 
+@pytest.mark.rest
 def test_the_fit_finds_the_factors_that_made_the_data():
     random = np.random.default_rng(3)
     roughness, gap = random.uniform(0, 0.6, 60_000), random.uniform(0, 30, 60_000)
@@ -196,6 +197,7 @@ def several(looked_at):
     return out, error
 
 
+@pytest.mark.rest
 def test_several_looks_change_only_the_expected_error(looked_at, several):
     (_, _, usual, error), (out, other) = looked_at, several
     np.testing.assert_array_equal(classes_of(out), classes_of(usual))
@@ -205,6 +207,7 @@ def test_several_looks_change_only_the_expected_error(looked_at, several):
     assert factors[known].min() < 1.0 < 1.3 < factors[known].max()
 
 
+@pytest.mark.rest
 def test_several_looks_at_many_files_equal_those_at_one(looked_at, several, tmp_path):
     many, error = looked_at[1], tmp_path / "error.tif"
     bare_earth.classify(many, tmp_path / "many", method="slope", looks="5", expected_error=error)

@@ -249,6 +249,7 @@ def _is_l(x, y):
     return (x < 60.0) | (y < 60.0)
 
 
+@pytest.mark.rest
 def test_no_raster_has_values_in_the_inner_corner_of_a_survey_like_an_l(tmp_path):
     path, tree, _, _ = _cloud(tmp_path / "in", _is_l, side=180.0)
     for values, x, y in _terrain(tmp_path, path, names=list(RASTERS)):
@@ -283,6 +284,7 @@ def _is_land(x, y):
     return ~lake & ~((np.abs(x - 220.0) < 35.0) & (y < 180.0))
 
 
+@pytest.mark.rest
 def test_a_lake_is_filled_and_a_bay_is_not(tmp_path):
     path, *_ = _cloud(tmp_path / "in", _is_land)
     names = ("dtm", "dsm", "chm")
@@ -300,6 +302,7 @@ def test_a_lake_is_filled_and_a_bay_is_not(tmp_path):
         assert np.isnan(values[lake & (np.hypot(x - 90.0, y - 200.0) < 30.0)]).all()
 
 
+@pytest.mark.rest
 def test_canopy_has_no_values_where_no_ground_is_near(tmp_path):
     def keep(x, y):
         return x >= 0.0
@@ -317,6 +320,7 @@ def test_canopy_has_no_values_where_no_ground_is_near(tmp_path):
     ).all()
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize("names", SOME_AND_ALL, ids=len)
 def test_blocks_files_and_strips_give_the_same_outlines(tmp_path, monkeypatch, names):
     path, _, integers, classes = _cloud(tmp_path / "in", lambda x, y: _is_l(x, y) & _is_land(x, y))
@@ -373,6 +377,7 @@ def test_a_boundary_clips_the_rasters_of_classify(tmp_path, boundary, more):
         assert np.isfinite(values[_in_l(x, y)]).mean() > 0.97
 
 
+@pytest.mark.rest
 def test_the_terrain_command_takes_a_boundary_and_an_extent(tmp_path, boundary):
     path, *_ = _cloud(tmp_path / "in", lambda x, y: x >= 0.0)
     whole, x, y = _terrain(tmp_path, path)[0]
@@ -391,6 +396,7 @@ def test_the_terrain_command_takes_a_boundary_and_an_extent(tmp_path, boundary):
     assert code == 1 and "No point lies in the area" in errors
 
 
+@pytest.mark.rest
 def test_blocks_far_from_the_area_are_not_made_and_change_nothing(tmp_path):
     path, _, integers, classes = _cloud(tmp_path / "in", lambda x, y: x >= 0.0)
     far = integers + np.array([900_000, 0, 0])
@@ -409,6 +415,7 @@ def test_blocks_far_from_the_area_are_not_made_and_change_nothing(tmp_path):
     assert not os.path.exists(tmp_path / "none.tif")
 
 
+@pytest.mark.rest
 def test_classify_limits_the_edges_of_its_rasters(tmp_path):
     path, *_ = _cloud(tmp_path / "in", _is_land, trees=False)
     dtm = tmp_path / "dtm.tif"
@@ -438,6 +445,7 @@ def test_pits_are_filled_and_edges_stay():
     assert np.array_equal(filled, canopy)
 
 
+@pytest.mark.rest
 def test_pits_of_the_canopy_are_filled_without_seams(tmp_path, monkeypatch):
     path, *_ = _cloud(tmp_path / "in", lambda x, y: x >= 0.0)
     names = ("dsm", "chm")

@@ -1,4 +1,4 @@
-"""Which tests are left out unless they are asked for."""
+"""Which tests are left out, and how many."""
 
 import sys
 
@@ -12,12 +12,28 @@ _NOT_THE_SAME = "test_goldens.py"
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_runtest_setup(item):
-    """Leave long tests out, and tell of it, unless `-m` asks for them; in Python 3.9 also those
-    that newer ones run.
-    """
+    """Leave out in Python 3.9 what newer ones run."""
     folder = item.path.parent.as_posix()
     is_same = folder.endswith(_SAME_IN_ANY_PYTHON) and item.path.name != _NOT_THE_SAME
     if sys.version_info < (3, 10) and is_same:
         pytest.skip("not in Python 3.9: it is the same in any Python")
-    if item.get_closest_marker("long") and "long" not in item.config.option.markexpr:
-        pytest.skip("long: `make test-long` runs it")
+
+
+def pytest_itemcollected(item):
+    """Leave a case in the daily tests for which `rest` makes an exception by a part of its name."""
+    case = getattr(getattr(item, "callspec", None), "id", "")
+    for mark in [mark for mark in item.own_markers if mark.name == "rest" and mark.kwargs]:
+        if mark.kwargs["but"] in case:
+            item.own_markers.remove(mark)
+
+
+def pytest_deselected(items):
+    """Count what markers leave out, where one of several processes does it."""
+    getattr(items[0].config, "workeroutput", {})["left_out"] = len(items)
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_testnodedown(node):
+    """Let the last line say how many these are: each process leaves out the same."""
+    stats = node.config.pluginmanager.get_plugin("terminalreporter").stats
+    stats["deselected"] = [None] * getattr(node, "workeroutput", {}).get("left_out", 0)

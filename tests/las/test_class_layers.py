@@ -47,6 +47,7 @@ def chunks_of(path):
     return found
 
 
+@pytest.mark.rest(but="6-0-False")
 @pytest.mark.parametrize("in_memory", [True, False])
 @pytest.mark.parametrize(("point_format", "extra"), [(6, 0), (7, 3), (8, 0)])
 def test_only_the_layer_of_the_classes_is_another(las, monkeypatch, point_format, extra, in_memory):

@@ -200,6 +200,7 @@ def nodes_by_the_rule(records, cube):
     return nodes
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize("spread", [100, 3000, 40_000])
 def test_each_node_has_the_points_that_the_rule_gives_it_in_file_order(small_leaves, spread):
     records = cloud_of(5_000, spread=spread)
@@ -247,6 +248,7 @@ def test_points_in_one_place_end_the_octree_all_the_same(las, few_in_memory, cou
     assert much.read_bytes() == little.read_bytes()
 
 
+@pytest.mark.rest(but="50-0")
 @pytest.mark.parametrize(("spread", "stray"), covering([50, 3000, 40_000], [0, 2]))
 def test_the_same_bytes_however_few_points_fit_into_memory(las, few_in_memory, spread, stray):
     records = cloud_of(15_000, spread=spread)
@@ -266,6 +268,7 @@ def test_the_same_bytes_however_few_points_fit_into_memory(las, few_in_memory, s
     assert len(progress[1].fractions) > 50
 
 
+@pytest.mark.rest(but="0-in.las")
 @pytest.mark.parametrize(("point_format", "name"), covering([0, 3, 5, 8, 10], ["in.las", "in.laz"]))
 def test_the_same_bytes_of_other_formats_and_edits(las, few_in_memory, point_format, name):
     version = 4 if point_format > 5 else 3
@@ -285,6 +288,7 @@ def test_the_same_bytes_of_other_formats_and_edits(las, few_in_memory, point_for
     assert laspy.read(little).header.point_count == changes.kept.sum() > 6000
 
 
+@pytest.mark.rest(but="None-1")
 @pytest.mark.parametrize(
     ("extent", "reads"),
     [
@@ -315,6 +319,7 @@ def test_a_header_may_be_wrong_about_the_extent(las, few_in_memory, monkeypatch,
     assert progress[1].fractions == sorted(progress[1].fractions)
 
 
+@pytest.mark.rest
 def test_memory_is_bounded_whatever_the_number_of_points(las, monkeypatch):
     monkeypatch.setattr(copc_octree, "_LEAF_POINTS", 20_000)
     monkeypatch.setattr(copc_points, "_MOST_AT_ONCE", 20_000)

@@ -103,6 +103,7 @@ def laszip_record(path):
     return path.read_bytes().index(b"laszip encoded") + 52
 
 
+@pytest.mark.rest
 def test_a_number_of_chunks_that_cannot_be(make):
     paths = []
     for point_format, chunks in itertools.product((1, 6), (0, 2**32 - 1, 10**6, 200)):
@@ -111,6 +112,7 @@ def test_a_number_of_chunks_that_cannot_be(make):
     refused(*paths)
 
 
+@pytest.mark.rest
 def test_chunks_of_a_size_that_cannot_be(make):
     def with_sizes(*sizes):
         for point_format, size in itertools.product((1, 6), sizes):
@@ -122,6 +124,7 @@ def test_chunks_of_a_size_that_cannot_be(make):
     assert said(*with_sizes(10**8, 2**32 - 2)) == ["read"] * 8
 
 
+@pytest.mark.rest
 def test_more_points_than_a_file_can_hold(make):
     counts = (2**59, 2**63, 2**64 - 1, 10**9, 60_000)
     files = itertools.product((".las", ".laz"), counts)
@@ -135,6 +138,7 @@ def test_more_points_than_chunks_of_any_size_can_hold(make):
     refused(damage(path, "Q", (247, 2**40)))
 
 
+@pytest.mark.rest
 def test_a_chunk_longer_than_the_file(make):
     path = make(point_format=6)
     with open(path, "r+b") as file:
@@ -143,6 +147,7 @@ def test_a_chunk_longer_than_the_file(make):
     refused(path)
 
 
+@pytest.mark.rest
 def test_more_records_than_there_are(make):
     paths = [
         damage(make(suffix), "I", (100, number))
@@ -161,11 +166,13 @@ def test_a_compression_that_is_none(make):
         assert "damaged or cut off" in line or "compressed in a way" in line
 
 
+@pytest.mark.rest
 def test_a_compression_of_another_point_format(make):
     old, new = make(point_format=1, extra=2), make(point_format=6)  # 30 bytes a point, both
     refused(damage(old, "B", (104, 0x80 | 6)), damage(new, "B", (104, 0x80 | 1)))
 
 
+@pytest.mark.rest
 def test_parts_of_a_point_of_another_type_than_their_length(make):
     def with_type(point_format, part, kind):
         path = make(point_format=point_format, extra=2)
@@ -223,6 +230,7 @@ def with_blank_block(path, start, length=4096):
     return path
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize(
     "point_format", [1, 6, *(pytest.param(n, marks=pytest.mark.long) for n in (3, 4, 7))]
 )
@@ -476,6 +484,7 @@ def test_corners_that_are_no_places_are_refused(tmp_path, corner, kind, read):
         read(path)
 
 
+@pytest.mark.rest
 def test_many_shapes_are_read_in_a_time_that_grows_with_their_number(tmp_path):
     path = tmp_path / "a.geojson"
     lines = [{"type": "LineString", "coordinates": [[0, 0], [1, 1]]}] * 30_000

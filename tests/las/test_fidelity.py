@@ -214,6 +214,7 @@ def kept_by(name, before, after):
 SOME = {(2, 3, "las"), (3, 5, "LASzip laz"), (4, 8, "laz")}
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize(
     ("version", "point_format", "container"),
     [
@@ -241,6 +242,7 @@ def test_commands_change_what_they_are_for_and_nothing_else(
         kept_by(name, independent.read(source), independent.read(target))
 
 
+@pytest.mark.rest(but="classify-7")
 @pytest.mark.parametrize(
     ("name", "point_format"),
     [

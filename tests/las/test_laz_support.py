@@ -265,6 +265,7 @@ def index(tmp_path, monkeypatch):
     return tmp_path / "index"
 
 
+@pytest.mark.rest
 def test_pip_gets_a_package_into_the_profile(support, index):
     make_wheel(index / f"{PACKAGE}-1.0-{tag_here()}.whl")
     support.get_by_pip(run)
@@ -295,6 +296,7 @@ def test_no_wheel_for_this_python_is_told(support, index):
     assert not support.is_there and not left(support)
 
 
+@pytest.mark.rest(but="-pip gave no reason.")
 @pytest.mark.parametrize(
     ("said", "told"),
     [

@@ -88,6 +88,7 @@ def test_return_numbers_begin_at_1_whatever_the_file_says(las, pairs, is_from_ze
     assert any("begin at 0" in text for text in told.warnings) == is_from_zero
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize("name", ["out.laz", "out.copc.laz"])
 def test_returns_from_zero_give_the_ground_and_stay_as_they_are(tmp_path, name):
     source, target = real("field2/returns-from-zero.laz"), tmp_path / name

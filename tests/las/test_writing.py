@@ -304,6 +304,7 @@ def test_a_missing_folder_is_told(las):
     assert list(las.folder.iterdir()) == [source]
 
 
+@pytest.mark.rest(but="ign_pf8.las-las")
 @pytest.mark.parametrize(("name", "written"), covering(REAL, ["las", "laz"]))
 def test_real_files_keep_all_but_the_class(las, name, written):
     source = real(f"real/{name}")

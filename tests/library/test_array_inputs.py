@@ -42,6 +42,7 @@ def with_coordinates(table, las):
     return table.assign(**{axis: np.asarray(las[axis]) for axis in "xyz"})
 
 
+@pytest.mark.rest
 def test_records_of_laspy_are_points(las, tmp_path):
     ground = arrays.ground(las)
     assert np.array_equal(arrays.ground(las.points), ground)
@@ -62,6 +63,7 @@ def test_columns_of_a_table_are_arrays(las):
     assert np.array_equal(found, arrays.classify(las))
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize("point_format", [1, 6])
 def test_what_raw_records_hold_in_bits_is_read_beside_coordinates(las, point_format):
     las = laspy.convert(las, point_format_id=point_format)
@@ -98,6 +100,7 @@ def test_a_file_is_no_array(file):
         arrays.ground(file)
 
 
+@pytest.mark.rest
 def test_other_integers_are_coordinates(las):
     metres = [np.rint(las[axis]).astype(np.int64) for axis in "xyz"]
     assert np.array_equal(arrays.ground(*metres), arrays.ground(*np.array(metres, float)))
@@ -145,6 +148,7 @@ def test_geometries_of_any_library_are_areas(las, tmp_path):
     assert np.array_equal(laspy.read(str(tmp_path / "b.laz")).classification, wanted)
 
 
+@pytest.mark.rest
 def test_lines_and_checkpoints_of_shapely(las):
     shapely = pytest.importorskip("shapely")
     wall = np.array([(50.5, 10, 66), (50.5, 90, 66)]) + ORIGIN
@@ -158,6 +162,7 @@ def test_lines_and_checkpoints_of_shapely(las):
         assert arrays.check(las, checkpoints=points).nva == wanted.nva
 
 
+@pytest.mark.rest
 def test_an_extent_is_four_numbers_or_that_of_a_geometry(las):
     shapely = pytest.importorskip("shapely")
     wanted = arrays.ground(las, extent=[*SQUARE.min(axis=0), *SQUARE.max(axis=0)])
@@ -273,6 +278,7 @@ def rasters_of(dtm):
     }
 
 
+@pytest.mark.rest
 def test_rasters_in_memory_are_rasters_everywhere(las, dtm, tmp_path):
     pytest.importorskip("xarray")
     pytest.importorskip("rasterio")
@@ -352,6 +358,7 @@ def test_what_is_no_raster_is_told(dtm, change, words):
         arrays.contours(change(dtm.to_xarray()))
 
 
+@pytest.mark.rest
 def test_reliefs_and_surfaces_are_those_of_files(las, dtm, tmp_path):
     rasterio = pytest.importorskip("rasterio")
     cloud, path = tmp_path / "a.laz", tmp_path / "dsm.tif"

@@ -73,6 +73,7 @@ def test_all_functions_are_listed():
     assert set(array_names()) < set(dir(arrays))
 
 
+@pytest.mark.rest(but="as_pandas")
 @pytest.mark.parametrize("kind", [dict, structured, as_pandas, as_pyarrow, as_geopandas])
 def test_a_table_gets_the_labels_of_the_file(files, kind):
     raw, done = files
@@ -80,6 +81,7 @@ def test_a_table_gets_the_labels_of_the_file(files, kind):
     assert found.dtype == np.uint8 and np.array_equal(found, classes_of(done))
 
 
+@pytest.mark.rest
 def test_arrays_get_the_labels_of_the_file_and_do_not_change(files):
     raw, done = files
     las = laspy.read(str(raw))
@@ -96,6 +98,7 @@ def test_arrays_get_the_labels_of_the_file_and_do_not_change(files):
     assert np.array_equal(arrays.ground(x[order], y[order], z[order]), ground[order])
 
 
+@pytest.mark.rest
 def test_feet_and_codes_of_a_crs_are_understood(files):
     pytest.importorskip("pyproj")
     x, y, z = (np.asarray(laspy.read(str(files[0]))[axis]) for axis in "xyz")
@@ -114,6 +117,7 @@ def test_numbers_without_end_are_rounded_to_less_than_matters(files):
     assert np.mean(ground == (classes_of(files[1]) == 2)) > 0.999
 
 
+@pytest.mark.rest
 def test_values_of_points_are_those_of_the_file(files, tmp_path):
     _, done = files
     las, target = laspy.read(str(done)), tmp_path / "a.laz"
@@ -138,6 +142,7 @@ def test_figures_are_those_of_the_file(files):
     )
 
 
+@pytest.mark.rest
 def test_rasters_are_those_of_the_file(files, tmp_path):
     rasterio = pytest.importorskip("rasterio")
     raw, done = files
@@ -182,6 +187,7 @@ def frame(corners, crs=25832, kind="polygons", **columns):
     return geopandas.GeoDataFrame(columns, geometry=np.atleast_1d(shapes), crs=25832).to_crs(crs)
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize("crs", [25832, 4326, 25833])
 def test_areas_of_geopandas_are_brought_to_the_crs_of_the_points(files, crs):
     las = laspy.read(str(files[0]))
@@ -204,6 +210,7 @@ def test_areas_of_geopandas_are_brought_to_the_crs_of_the_points(files, crs):
         arrays.terrain(las, breaklines=known, **rasters)
 
 
+@pytest.mark.rest
 def test_features_are_those_of_the_files_functions(files, tmp_path):
     geopandas = pytest.importorskip("geopandas")
     las, crs = laspy.read(str(files[1])), "EPSG:25832"
@@ -232,6 +239,7 @@ def test_features_are_those_of_the_files_functions(files, tmp_path):
         assert np.array_equal(one.values, same.values, equal_nan=True)
 
 
+@pytest.mark.rest
 def test_water_is_that_of_the_file(tmp_path):
     geopandas = pytest.importorskip("geopandas")
     scene = lake_scene("sparse")
@@ -245,6 +253,7 @@ def test_water_is_that_of_the_file(tmp_path):
         assert frame[columns].to_csv() == wanted[columns].to_csv()
 
 
+@pytest.mark.rest
 def test_progress_is_a_callable_or_a_bar_of_tqdm(files):
     tqdm = pytest.importorskip("tqdm")
     las, shares = laspy.read(str(files[0])), []
@@ -362,6 +371,7 @@ def test_all_real_tiles_get_the_labels_of_the_file(path, tmp_path):
         test_real_tiles_get_the_labels_of_the_file(path.name, tmp_path)
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize("name", quick(REAL, "house_slope.laz"))
 def test_real_tiles_get_the_labels_of_the_file(name, tmp_path):
     pytest.importorskip("pyproj")

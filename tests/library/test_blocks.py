@@ -70,6 +70,7 @@ def test_all_blocks_have_the_labels_of_the_survey(survey, small_blocks):
     assert x.min() >= block.extent[0] and y.max() < block.extent[3]
 
 
+@pytest.mark.rest
 def test_rasters_are_lazy_and_equal_to_those_of_the_survey(survey, small_blocks, tmp_path):
     rasterio = pytest.importorskip("rasterio")
     xarray, dask = pytest.importorskip("xarray"), pytest.importorskip("dask")
@@ -96,6 +97,7 @@ def test_rasters_are_lazy_and_equal_to_those_of_the_survey(survey, small_blocks,
     assert np.array_equal(*dask.compute(piece.values, same.data), equal_nan=True)
 
 
+@pytest.mark.rest
 def test_gaps_of_the_survey_are_filled_as_in_a_run(survey, small_blocks, tmp_path):
     rasterio = pytest.importorskip("rasterio")
     pytest.importorskip("dask.array")
@@ -106,6 +108,7 @@ def test_gaps_of_the_survey_are_filled_as_in_a_run(survey, small_blocks, tmp_pat
         assert np.array_equal(cells, file.read(1), equal_nan=True)
 
 
+@pytest.mark.rest
 def test_dask_and_joblib_run_them_in_processes(tmp_path):
     joblib, dask = pytest.importorskip("joblib"), pytest.importorskip("dask")
     (tmp_path / "raw").mkdir()
@@ -120,6 +123,7 @@ def test_dask_and_joblib_run_them_in_processes(tmp_path):
     assert np.array_equal(rows(*again), rows_of(tmp_path / "done"))
 
 
+@pytest.mark.rest
 def test_blocks_of_addresses_fetch_their_own_points(survey, small_blocks, tmp_path, monkeypatch):
     monkeypatch.setenv("BARE_EARTH_CACHE", str(tmp_path / "cache"))
     (tmp_path / "done").mkdir()
@@ -165,6 +169,7 @@ def joined_to_files(blocks):
     return {source: np.sort(np.concatenate(indices)) for source, indices in met.items()}
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize("classified", [False, True])
 def test_points_of_blocks_know_their_file_and_their_place_in_it(survey, small_blocks, classified):
     folder = survey / ("done" if classified else "raw")
@@ -174,6 +179,7 @@ def test_points_of_blocks_know_their_file_and_their_place_in_it(survey, small_bl
         assert np.array_equal(indices, np.arange(laspy.read(source).header.point_count))
 
 
+@pytest.mark.rest
 def test_so_do_those_of_copc_files_here_and_elsewhere(survey, small_blocks, tmp_path, monkeypatch):
     monkeypatch.setenv("BARE_EARTH_CACHE", str(tmp_path / "cache"))
     plain, copc = write(tmp_path / "a.las", strip(60_000, 600.0)), tmp_path / "a.copc.laz"

@@ -66,6 +66,7 @@ def test_a_wrong_value_is_refused_as_by_the_command():
         bare_earth.classify("a.laz", "b.laz", dtm="dtm.tif", water="automatic")
 
 
+@pytest.mark.rest
 def test_mypy_reads_the_stubs(tmp_path):
     right, wrong = tmp_path / "right.py", tmp_path / "wrong.py"
     right.write_text(

@@ -53,6 +53,7 @@ def server(work):
         yield running
 
 
+@pytest.mark.rest(but="info tile.laz")
 @pytest.mark.parametrize("words", quick(COMMANDS, *COMMANDS[::4]))
 def test_a_command_of_the_page_runs(words, work, server, tmp_path, monkeypatch):
     pytest.importorskip("rasterio")
@@ -77,6 +78,7 @@ def as_pdal(las):
     return ins, {name: column.copy() for name, column in ins.items()}
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize("options", [None, {"preset": "city"}])
 def test_the_recipe_for_pdal_gives_the_labels_of_the_file(options, work, tmp_path):
     (code,) = re.findall(r"```python\n(.*?)```", PAGE, re.S)

@@ -31,6 +31,7 @@ def survey(scene):
     return make(scene.KIND, scene.SEED, density=1.5)
 
 
+@pytest.mark.rest
 def test_every_kind_of_thing_is_there(survey):
     kinds, counts = np.unique(survey.classes, return_counts=True)
     count = dict(zip(kinds.tolist(), counts.tolist()))
@@ -92,6 +93,7 @@ def test_the_files_hold_the_same_points_and_only_the_truth_its_classes(scene, tm
     assert "25832" in cloud.header.vlrs.get("WktCoordinateSystemVlr")[0].string
 
 
+@pytest.mark.rest
 def test_the_picture_is_drawn_with_and_without_truth(demo, scene, tmp_path, monkeypatch):
     rasterio = pytest.importorskip("rasterio")
     pytest.importorskip("matplotlib")
@@ -133,6 +135,7 @@ def test_the_profile_keeps_away_from_the_border(demo):
     assert abs(picture.busiest_northing(view) - 60.0) < 2.0
 
 
+@pytest.mark.rest
 def test_real_land_is_classified_and_compared_with_its_labels(demo, tmp_path, monkeypatch, capfd):
     pytest.importorskip("rasterio")
     pytest.importorskip("matplotlib")

@@ -35,6 +35,7 @@ def outputs(tmp_path_factory):
     return folder, of_everything(folder)
 
 
+@pytest.mark.rest
 @pytest.mark.skipif(os.name == "nt", reason="messages have other slashes there")
 def test_no_output_changes_by_accident(outputs):
     wrong = [*differences(read(AGREED), outputs[1])]
@@ -110,6 +111,7 @@ def _move_features(path, *how):
     return found
 
 
+@pytest.mark.rest
 @pytest.mark.skipif(os.name == "nt", reason="sqlite keeps its files open there")
 def test_last_bits_of_no_output_count_and_two_millimetres_of_any_do(outputs):
     folder, random = outputs[0], np.random.default_rng(3)

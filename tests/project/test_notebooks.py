@@ -18,6 +18,7 @@ def cells(notebook, kind):
     return ["".join(cell["source"]) for cell in whole["cells"] if cell["cell_type"] == kind]
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize(
     "notebook",
     [
@@ -47,6 +48,7 @@ def test_a_notebook_runs(notebook, tmp_path, monkeypatch):
         assert names["las"] is not None
 
 
+@pytest.mark.rest
 def test_the_page_of_the_library_names_them_and_they_are_clean():
     page = (NOTEBOOKS[0].parents[1] / "api.md").read_text(encoding="utf-8")
     assert len(NOTEBOOKS) == 3 and bare_earth.__version__

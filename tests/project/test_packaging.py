@@ -104,6 +104,7 @@ def test_the_recipe_for_conda_asks_for_what_pip_asks_for(metadata):
     ).group(1)
 
 
+@pytest.mark.rest
 def test_the_zip_holds_one_folder_with_what_qgis_needs(names, package):
     assert {name.split("/")[0] for name in names} == {"bare_earth"}
     needed = (
@@ -209,6 +210,7 @@ def test_what_is_to_be_set_before_publishing_is_told(package, metadata):
         assert f"{key}={metadata[key]}" in said
 
 
+@pytest.mark.rest
 def test_the_check_of_the_plugin_site_is_clean(package, names, tmp_path):
     archive = zipfile.ZipFile(package[0])
     # `make lint` checks what is ours; here it is to leave out what is of others, and only that.

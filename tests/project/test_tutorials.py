@@ -92,6 +92,7 @@ def error_in(drawn, delivery, scene):
     return float(np.abs(heights[rows, columns] - true).mean())
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize("job", quick(JOBS, "flood"))
 def test_a_tutorial_runs_and_says_what_comes_out(job, pages, tmp_path, monkeypatch):
     page = tutorials()[job]

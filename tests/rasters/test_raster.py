@@ -115,6 +115,7 @@ for missing in (size - 1, 100_000, 20_000, 200, 1):  # the end is written when t
 """
 
 
+@pytest.mark.rest
 def test_a_disk_that_becomes_full_leaves_the_old_raster(tmp_path):
     pytest.importorskip("resource")
     target = tmp_path / "a.tif"

@@ -28,6 +28,7 @@ def written(path, text):
     return write_points(path, x, y, 50 + 0.1 * x, 2, wkt=text)
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize("kind", ["DHHN2016", "ellipsoid", "three axes"])
 def test_only_heights_have_a_vertical_crs_and_its_unit(tmp_path, capsys, kind):
     flat = pyproj.CRS("EPSG:25832")

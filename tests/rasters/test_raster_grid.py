@@ -93,6 +93,7 @@ def usual(source, tmp_path_factory):
     return made(tmp_path_factory.mktemp("usual"), source, "--crs", CRS)
 
 
+@pytest.mark.rest
 def test_the_grid_of_the_usual_rasters_gives_the_usual_rasters(source, usual, tmp_path):
     again = made(tmp_path / "again", source, "--crs", CRS, "--like", usual["dtm"].name)
     for name in NAMES:
@@ -100,6 +101,7 @@ def test_the_grid_of_the_usual_rasters_gives_the_usual_rasters(source, usual, tm
         assert np.array_equal(usual[name].read(1), again[name].read(1))
 
 
+@pytest.mark.rest
 def test_a_shifted_grid_is_the_same_in_one_file_and_in_many(source, files, tmp_path, monkeypatch):
     like = given(tmp_path / "like.tif", 499_950.37, 5_700_180.71, shape=(200, 300))
     monkeypatch.setattr(blocks_module, "_SIDE", 100.0)
@@ -220,6 +222,7 @@ def test_what_is_no_extent_is_refused(source, tmp_path, box):
     assert "smallest x and y" in errors
 
 
+@pytest.mark.rest
 def test_each_file_gets_its_part_of_the_grid(source, files, tmp_path):
     like = given(tmp_path / "like.tif", shape=(70, 100))
     out = tmp_path / "dtm.tif"
@@ -237,6 +240,7 @@ def test_each_file_gets_its_part_of_the_grid(source, files, tmp_path):
     assert np.array_equal(whole[inside], values(alone)[inside])
 
 
+@pytest.mark.rest
 def test_three_feet_are_three_feet(tmp_path):
     source = real("field/feet-2260.laz")
     raster = made(
@@ -250,6 +254,7 @@ def test_three_feet_are_three_feet(tmp_path):
     assert np.array_equal(raster.read(1), metres.read(1))
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize(
     ("option", "nodata"),
     [("-32768", -32768.0), pytest.param("none", np.nan, marks=pytest.mark.long)],

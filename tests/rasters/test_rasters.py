@@ -83,6 +83,7 @@ CLOUDS = {
 }
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize("name", quick(CLOUDS, "uneven", "lake", "sparse"))
 def test_a_terrain_model_in_blocks_is_that_of_one_tin(small_blocks, tmp_path, name):
     cloud = CLOUDS[name]
@@ -108,6 +109,7 @@ def test_gaps_wider_than_the_longest_edge_stay_open(small_blocks, tmp_path):
     assert np.isfinite(found[inside]).all()
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize("max_edge", quick([None, 20.0], 20.0))
 def test_blocks_of_any_size_give_the_same_rasters(tmp_path, monkeypatch, max_edge):
     names = "dtm", "dsm", "chm", "hillshade"
@@ -170,6 +172,7 @@ def test_many_files_give_the_rasters_of_one_cell_by_cell(survey, small_blocks, t
     assert sorted(os.listdir(tmp_path / "many")) == [f"{name}.tif" for name in names]
 
 
+@pytest.mark.rest
 def test_processes_give_the_rasters_of_threads(survey, of_one, tmp_path):
     many = _of_files(survey / "many", tmp_path / "more", scheduler="processes")
     assert _same(of_one, many)
@@ -190,6 +193,7 @@ def raster_jobs(monkeypatch):
     return jobs
 
 
+@pytest.mark.rest
 def test_a_cancelled_survey_goes_on_with_the_rasters_that_are_left(
     small_blocks, tmp_path, raster_jobs
 ):
@@ -213,11 +217,13 @@ def test_a_cancelled_survey_goes_on_with_the_rasters_that_are_left(
     assert not list((tmp_path / "more").rglob("*.npz"))
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize("source", quick(["one.laz", "many"], "many"))
 def test_files_that_do_not_fit_into_memory_give_the_same_rasters(survey, of_one, tmp_path, source):
     assert _same(of_one, _of_files(survey / source, tmp_path / "other", memory=0.001))
 
 
+@pytest.mark.rest
 def test_classified_tiles_give_the_terrain_model_of_one_file(survey, tmp_path):
     dtm, shade, many = tmp_path / "dtm.tif", tmp_path / "shade.tif", tmp_path / "out"
     one = tmp_path / "1.tif"
@@ -227,6 +233,7 @@ def test_classified_tiles_give_the_terrain_model_of_one_file(survey, tmp_path):
     assert shade.exists() and not list(many.glob("*.npz"))
 
 
+@pytest.mark.rest
 def test_the_terrain_command_takes_a_folder(survey, tmp_path, capsys, threads_for_processes):
     words = ["terrain", str(survey / "many"), "--dtm", str(tmp_path / "dtm.tif"), "--json"]
     assert main(words) == 0
@@ -236,6 +243,7 @@ def test_the_terrain_command_takes_a_folder(survey, tmp_path, capsys, threads_fo
     assert (tmp_path / "out" / "shade.tif").exists()
 
 
+@pytest.mark.rest(but="0.1")
 @pytest.mark.parametrize("fraction", [0.1, 0.5, 0.9])
 def test_a_cancel_leaves_nothing(survey, tmp_path, fraction):
     with pytest.raises(Cancelled):
@@ -243,6 +251,7 @@ def test_a_cancel_leaves_nothing(survey, tmp_path, fraction):
     assert os.listdir(tmp_path / "out") == []
 
 
+@pytest.mark.rest
 def test_the_expected_error_is_large_across_gaps_and_small_where_ground_is_dense(tmp_path):
     found, x, y = _made(CLOUDS["lake"], tmp_path, names=("expected_error",), cell=1.0)
     within, beyond = _is_lake(x, y, -30.0), ~_is_lake(x, y, 30.0) & (np.abs(x) < 270)
@@ -278,6 +287,7 @@ def named(tmp_path):
     return {name: tmp_path / f"{name}.tif" for name in names}
 
 
+@pytest.mark.rest
 def test_the_rasters_of_single_files_are_cut_from_that_of_all(survey, named, tmp_path):
     bare_earth.terrain(survey / "many", **named)
     whole = {name: _values(path) for name, path in named.items()}
@@ -313,6 +323,7 @@ def part_crs(folder):
         return raster.crs
 
 
+@pytest.mark.rest
 def test_the_commands_make_one_raster_for_each_file(survey, tmp_path, threads_for_processes):
     out = tmp_path / "out"
     words = ["classify", survey / "many", out, "--method", "slope", "--dtm", out / "dtm.tif"]
@@ -339,6 +350,7 @@ def test_rasters_of_single_files_that_would_do_harm_are_refused(survey, named, t
     assert sorted(os.listdir(tmp_path)) == ["a.las", "a.laz"]
 
 
+@pytest.mark.rest
 def test_a_cancel_leaves_no_raster_and_no_folder_of_single_files(survey, named, tmp_path):
     with pytest.raises(Cancelled):
         bare_earth.terrain(survey / "many", **named, progress=CancelAt(0.97), raster_per_file=True)

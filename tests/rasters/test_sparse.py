@@ -56,6 +56,7 @@ def pieces(tmp_path_factory):
     return folder
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize("name", ["dtm", "dsm", "hillshade", "vat", "expected_error"])
 def test_two_pieces_far_apart_have_the_cells_of_each(pieces, name):
     both = pieces / "both" / f"{name}.tif"
@@ -83,6 +84,7 @@ def _are_joined(both, alone_a, alone_b):
     )
 
 
+@pytest.mark.rest
 def test_reliefs_and_canopy_of_rasters_with_empty_land_are_those_of_the_pieces(pieces, monkeypatch):
     read = []
     monkeypatch.setattr(
@@ -135,6 +137,7 @@ def test_classes_of_pieces_have_cells_as_small_as_those_of_one(tmp_path):
     assert (cells[:, :19] == 2).mean() > 0.8 and (cells[:, 20:] == 5).mean() > 0.8
 
 
+@pytest.mark.rest
 def test_the_quality_of_pieces_is_that_of_each(pieces):
     def make(folder, made):
         key = folder.name
@@ -156,6 +159,7 @@ def test_the_quality_of_pieces_is_that_of_each(pieces):
     assert "pieces far apart" not in (pieces / "a" / "page.html").read_text("utf-8")
 
 
+@pytest.mark.rest
 def test_a_stray_point_leaves_the_rasters_of_an_extent_as_they_are(tmp_path):
     x, y = np.random.default_rng(0).uniform(0.0, SIDE, (2, 3000))
     x[0], y[0] = 2_999_999.5, 2_399_999.5
@@ -171,6 +175,7 @@ def test_a_stray_point_leaves_the_rasters_of_an_extent_as_they_are(tmp_path):
         bare_earth.terrain(path, dtm=tmp_path / "c.tif")
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize("kind, bands, nodata", [
     ("float32", 1, -9999.0), ("float32", 1, np.nan), ("uint8", 1, 255.0), ("uint8", 3, 0.0),
 ])  # fmt: skip

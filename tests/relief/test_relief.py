@@ -293,6 +293,7 @@ def cells(path):
         return raster.read()
 
 
+@pytest.mark.rest
 def test_files_and_strips_make_no_seams(tmp_path, monkeypatch):
     whole = drawn([write(tmp_path / "in.laz")], tmp_path / "a")
     monkeypatch.setattr(outline, "_CELLS_A_SPAN", 1)
@@ -307,6 +308,7 @@ def test_files_and_strips_make_no_seams(tmp_path, monkeypatch):
             assert np.array_equal(many[name], whole[name]), name
 
 
+@pytest.mark.rest
 def test_each_file_gets_its_part_of_three_bands_too(tmp_path):
     parts = [write(tmp_path / f"{n}.laz", 30.0 * n, 30.0 * n + 30) for n in range(2)]
     whole = drawn(parts, tmp_path / "one")
@@ -318,6 +320,7 @@ def test_each_file_gets_its_part_of_three_bands_too(tmp_path):
     assert colours == ["red", "green", "blue"]
 
 
+@pytest.mark.rest
 def test_classify_makes_them_in_the_same_run(tmp_path):
     source, target = write(tmp_path / "in.laz"), tmp_path / "out.laz"
     outputs = [f"--vat={tmp_path / 'vat.tif'}", f"--sky-view={tmp_path / 'sky.tif'}"]
@@ -328,6 +331,7 @@ def test_classify_makes_them_in_the_same_run(tmp_path):
     assert 0.5 < sky[sky > 0].min() < sky.max() <= 1.0
 
 
+@pytest.mark.rest
 def test_a_high_tolerance_keeps_narrow_walls(tmp_path):
     # What the page on relief recommends to archaeologists.
     draw = np.random.default_rng(2)
@@ -352,6 +356,7 @@ def test_red_relief_is_a_picture_in_colours(tmp_path):
         assert raster.descriptions[0] == "Red relief"
 
 
+@pytest.mark.rest(but="openness")
 @pytest.mark.parametrize("kind", quick(sorted(KINDS), "openness", "red-relief", "vat"))
 def test_the_command_makes_each_kind_of_any_raster(tmp_path, monkeypatch, kind):
     name = "relief" if kind == "local-relief" else kind.replace("-", "_")
@@ -405,6 +410,7 @@ def test_an_unknown_kind_is_refused(tmp_path):
         bare_earth.relief(tmp_path / "dtm.tif", tmp_path / "out.tif", kind="shadow")
 
 
+@pytest.mark.rest
 @pytest.mark.skipif(shutil.which("gdaldem") is None, reason="gdaldem is not installed")
 def test_slope_is_that_of_gdaldem(tmp_path):
     whole = drawn([write(tmp_path / "in.laz")], tmp_path / "a")

@@ -128,6 +128,7 @@ def test_strips_and_files_make_no_seams(tmp_path, monkeypatch):
         assert np.array_equal(many[name], whole[name]), name
 
 
+@pytest.mark.rest
 def test_each_file_gets_its_part_of_the_pictures(tmp_path):
     for number in range(2):
         write(tmp_path / f"{number}.laz", 30.0 * number, 30.0 * number + 30)
@@ -148,6 +149,7 @@ def test_each_file_gets_its_part_of_the_pictures(tmp_path):
                     assert np.array_equal(part.read(1), values)
 
 
+@pytest.mark.rest
 def test_the_command_makes_the_relief_of_a_raster(tmp_path, monkeypatch):
     found = drawn(write(tmp_path / "in.laz"), tmp_path / "a")
     target, source = tmp_path / "relief.tif", tmp_path / "a" / "dtm.tif"

@@ -63,6 +63,7 @@ def check_header(path):
     return layout
 
 
+@pytest.mark.rest(but="part.laz-False")
 @pytest.mark.parametrize("pages", [False, True])
 @pytest.mark.parametrize("name", ["part.copc.laz", "part.laz"])
 def test_a_part_has_the_same_points_as_a_clip(server, tmp_path, name, pages):
@@ -172,6 +173,7 @@ def test_a_file_that_is_no_copc_is_refused(server, tmp_path):
 FAULTS = ["no ranges", "gzip", "shifted", "fewer", "cut", "short", "503", "403", "old"]
 
 
+@pytest.mark.rest(but="cut-5")
 @pytest.mark.parametrize(("fault", "every"), covering(FAULTS, [1, 2, 5]))
 def test_bad_answers_give_the_same_points_or_one_sentence(server, tmp_path, content, fault, every):
     source, target = tmp_path / "whole.copc.laz", tmp_path / "part.copc.laz"
@@ -189,6 +191,7 @@ def test_bad_answers_give_the_same_points_or_one_sentence(server, tmp_path, cont
     assert not (tmp_path / "part.copc.laz.parts").exists()
 
 
+@pytest.mark.rest
 def test_damaged_bytes_are_never_points(server, tmp_path, content):
     address, random = server.add("whole.copc.laz", content), np.random.default_rng(1)
     source = tmp_path / "whole.copc.laz"

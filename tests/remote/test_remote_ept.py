@@ -32,6 +32,7 @@ def clip(points, box=BOX):
     return points[(x >= box[0]) & (x <= box[2]) & (y >= box[1]) & (y <= box[3])]
 
 
+@pytest.mark.rest(but="1-part.copc.laz")
 @pytest.mark.parametrize("name", ["part.laz", "part.copc.laz"])
 @pytest.mark.parametrize("point_format", [1, 6])
 def test_a_part_has_the_same_points_as_a_clip(server, tmp_path, name, point_format):
@@ -53,6 +54,7 @@ def test_a_part_has_the_same_points_as_a_clip(server, tmp_path, name, point_form
     assert [path.name for path in tmp_path.iterdir()] == [name]
 
 
+@pytest.mark.rest(but="part.laz-binary")
 @pytest.mark.parametrize("kind", ["binary", "zstandard"])
 @pytest.mark.parametrize("name", ["part.laz", "part.copc.laz"])
 def test_tiles_of_plain_rows_are_read_by_the_schema(server, tmp_path, kind, name):
@@ -93,6 +95,7 @@ def test_a_missing_tile_stops_or_is_counted(server, tmp_path):
     assert [path.name for path in tmp_path.iterdir()] == ["part.laz"]
 
 
+@pytest.mark.rest(but="gzip-3")
 @pytest.mark.parametrize(
     ("fault", "every"), covering(["cut", "short", "503", "gzip", "old"], [1, 3])
 )
@@ -108,6 +111,7 @@ def test_bad_answers_give_the_same_points_or_one_sentence(server, tmp_path, faul
     assert np.allclose(table_of(tmp_path / "part.laz"), clip(points), atol=1e-6)
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize("kind", ["laszip", "binary"])
 @pytest.mark.parametrize("fault", ["cut", "short", "gzip"])
 @pytest.mark.parametrize("every", [2, 10])
@@ -222,6 +226,7 @@ def test_a_page_that_names_itself_is_refused(server, tmp_path, count, page):
         bare_earth.fetch(address, tmp_path / "part.laz")
 
 
+@pytest.mark.rest(but="packed")
 @pytest.mark.parametrize("fault", ["packed", ""])
 def test_documents_may_be_compressed_and_are_asked_for_twice(server, tmp_path, fault):
     points, address = add_ept(server)
@@ -247,6 +252,7 @@ def test_a_document_that_unpacks_to_too_much_is_refused(server, tmp_path):
         bare_earth.fetch(address, tmp_path / "part.laz")
 
 
+@pytest.mark.rest(but="f4")
 @pytest.mark.parametrize("kind", ["f8", "i8", "f4"])
 def test_coordinates_of_other_types_are_read(server, tmp_path, kind):
     points, address = add_ept(server, kind="binary")
@@ -275,6 +281,7 @@ def test_coordinates_of_other_types_are_read(server, tmp_path, kind):
     assert np.allclose(found, points, atol=0.5 if kind == "f4" else 1e-6)
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize(
     ("name", "text", "words"),
     [
@@ -373,6 +380,7 @@ def test_another_port_or_scheme_is_another_server(server, tmp_path, href):
         bare_earth.fetch(address, tmp_path / "part.laz")
 
 
+@pytest.mark.rest(but="about0")
 @pytest.mark.parametrize("about", [{"proj:epsg": 4326}, {"proj:code": "EPSG:4326"}, {}])
 def test_an_extent_in_degrees_says_nothing(server, copc, tmp_path, about):
     pair = [
@@ -454,6 +462,7 @@ def test_a_list_on_this_computer_may_name_its_files(copc, tmp_path):
     assert bare_earth.fetch(tmp_path / "all.vpc", tmp_path / "part.laz").point_count == 4000
 
 
+@pytest.mark.rest(but="3-403")
 @pytest.mark.parametrize("fault", ["cut", "short", "403", "old"])
 @pytest.mark.parametrize("every", [1, 3])
 def test_bad_answers_to_a_list_give_all_clouds_or_one_sentence(
@@ -469,6 +478,7 @@ def test_bad_answers_to_a_list_give_all_clouds_or_one_sentence(
     assert done.file_count == 2 and done.point_count == 8000
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize("fault", ["cut", "short"])
 @pytest.mark.parametrize("every", [10])
 @pytest.mark.parametrize("place", ["set/ept.json", "all.vpc"])

@@ -76,6 +76,7 @@ def test_a_part_gives_the_labels_of_the_whole_file(server, tiles, tmp_path):
     assert laspy.read(remote).header.point_count < laspy.read(here).header.point_count / 2
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize(
     "crs, metre, rasters, margin",
     [
@@ -100,6 +101,7 @@ def test_the_margin_is_in_units_of_the_points(server, tmp_path, crs, metre, rast
     assert np.array_equal(labels_in(here, box), labels_in(tmp_path / "out.laz", box))
 
 
+@pytest.mark.rest
 def test_a_delivery_is_made_of_an_address(server, tiles, tmp_path):
     pytest.importorskip("rasterio")
     code, _, errors = said("deliver", "survey", add(server, tiles[0]), tmp_path / "out", *EXTENT)
@@ -107,6 +109,7 @@ def test_a_delivery_is_made_of_an_address(server, tiles, tmp_path):
     assert any("west" in path.name for path in (tmp_path / "out").rglob("*.laz"))
 
 
+@pytest.mark.rest
 def test_a_raster_is_that_of_the_file(server, tiles, tmp_path):
     rasterio = pytest.importorskip("rasterio")
     rasters = []
@@ -153,6 +156,7 @@ def test_too_much_without_an_area_is_refused(server, tiles, tmp_path):
     assert said("key-points", address, tmp_path / "out.laz")[0] == 0
 
 
+@pytest.mark.rest
 def test_two_addresses_are_one_survey(server, tiles, tmp_path):
     box = (WEST + 250, SOUTH + 20, WEST + 350, SOUTH + 90)
     done = bare_earth.classify(tiles, tmp_path / "here", extent=box, **NEAR)
@@ -210,6 +214,7 @@ def test_the_method_of_many_files_needs_what_it_looks_at():
     assert [margin_of([values], True) for values, _ in filters] == [far for _, far in filters]
 
 
+@pytest.mark.rest
 def test_the_tutorial_runs(server, tiles, tmp_path, monkeypatch):
     pytest.importorskip("rasterio")
     page = (Path(__file__).parents[2] / "docs" / "fetch.md").read_text(encoding="utf-8")
@@ -285,6 +290,7 @@ def test_what_has_no_version_is_fetched_each_time(server, tiles, tmp_path):
         assert len(server.asked) > 1
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize("ending", ["laz", "las"])
 def test_all_of_a_plain_file_is_fetched_once_for_all_areas(server, tmp_path, ending):
     plain = write(tmp_path / f"plain.{ending}", strip(60_000, 600.0))

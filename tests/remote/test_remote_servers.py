@@ -170,6 +170,7 @@ def check_secrets(folder, *texts):
         assert path.is_dir() or b"S3CRET" not in path.read_bytes(), path
 
 
+@pytest.mark.rest(but="1000-403")
 @pytest.mark.parametrize("refusal", ["409", "403", "404", "401"])
 @pytest.mark.parametrize("lasts", [1000, 4])
 def test_a_token_is_got_and_renewed(planet, content, tmp_path, refusal, lasts, monkeypatch):
@@ -287,6 +288,7 @@ def bucket(request, content, monkeypatch, fsspec):
     store.store.clear()
 
 
+@pytest.mark.rest(but="gs")
 def test_a_part_of_an_object_is_that_of_the_file(bucket, content, tmp_path):
     (tmp_path / "whole.copc.laz").write_bytes(content)
     bare_earth.fetch(tmp_path / "whole.copc.laz", tmp_path / "local.copc.laz", extent=BOX)

@@ -137,6 +137,7 @@ def test_ground_of_the_area_alone(inputs, tmp_path):
     assert np.array_equal(points_of(finished(tmp_path / "many")), ground)
 
 
+@pytest.mark.rest
 def test_a_run_goes_on_in_the_same_area_only(inputs, tmp_path):
     classify([inputs / "in"], tmp_path, **ONLY)
     before = bytes_of(tmp_path)
@@ -173,6 +174,7 @@ def test_the_area_alone_needs_an_area(inputs, tmp_path, capsys):
     assert not list(tmp_path.iterdir())
 
 
+@pytest.mark.rest
 def test_the_command_writes_the_area_alone(inputs, tmp_path, capsys):
     boundary = tmp_path / "boundary.geojson"
     rings = [[*TRIANGLE.tolist(), TRIANGLE[0].tolist()]]
@@ -187,6 +189,7 @@ def test_the_command_writes_the_area_alone(inputs, tmp_path, capsys):
     assert len(one) == in_area(laspy.read(inputs / "all.laz")).sum()
 
 
+@pytest.mark.rest
 def test_corrections_that_meet_no_point_are_told_once(inputs, tmp_path):
     between = EAST + 50.001, NORTH + 50.001, EAST + 50.002, NORTH + 50.002
     for box, count in ((between, 1), ((EAST, NORTH, EAST + 9.0, NORTH + 9.0), 0)):
@@ -216,6 +219,7 @@ def hall(folder):
     return folder
 
 
+@pytest.mark.rest
 def test_the_terrain_of_an_area_that_cuts_a_building_is_that_of_the_whole(tmp_path):
     folder, whole, (west, south) = hall(tmp_path), tmp_path / "whole.tif", (EAST, NORTH)
     classify(folder / "one.laz", folder / "whole.laz", dtm=whole)
@@ -249,6 +253,7 @@ def test_the_terrain_of_an_area_that_cuts_a_building_is_that_of_the_whole(tmp_pa
     assert np.count_nonzero(written.classification == 2) > 1000
 
 
+@pytest.mark.rest
 def test_heights_beside_the_border_are_above_the_ground_round_the_area(tmp_path):
     folder, (west, south) = hall(tmp_path), (EAST, NORTH)
     # On the roof alone: all ground lies outside.

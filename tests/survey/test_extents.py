@@ -28,6 +28,7 @@ def ground_of(path):
     return np.asarray(las.classification) == 2, np.asarray(las.x) - EAST, np.asarray(las.y) - NORTH
 
 
+@pytest.mark.rest(but="500010 5500020 500030 5500050")
 @pytest.mark.parametrize(
     "words", ["500010 500030 5500020 5500050", "500010 5500020 500030 5500050"]
 )
@@ -114,6 +115,7 @@ def test_degrees_without_a_crs_are_refused(tmp_path, command):
     assert code == 1 and "look like degrees (x 9" in told and "Reproject it first" in told
 
 
+@pytest.mark.rest(but="how1")
 @pytest.mark.parametrize(
     "how",
     [{"crs": "EPSG:25832"}, {"scale": (0.001,) * 3}, {"shift": (0.0, 0.0)}, {"size": 30.0}],

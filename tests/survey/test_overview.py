@@ -58,6 +58,7 @@ def rounded(las):
     }
 
 
+@pytest.mark.rest
 def test_a_run_with_copc_writes_points_of_every_file(tiles, tmp_path):
     summary = classify(tiles, tmp_path / "out")
     target = tmp_path / "out" / "classified-overview.copc.laz"
@@ -112,6 +113,7 @@ def test_it_is_small_however_large_the_survey_is(tiles, tmp_path, monkeypatch):
     assert 300 <= len(laspy.read(target).points) <= 1200
 
 
+@pytest.mark.rest
 def test_files_of_different_kinds_share_one(tmp_path):
     kinds = [(6, 0.001, True), (7, 0.01, False), (6, 0.001, False)]
     files = []
@@ -155,6 +157,7 @@ def test_a_failure_leaves_nothing_half_written(tiles, tmp_path, monkeypatch):
     assert read_vpc(vpc) == files
 
 
+@pytest.mark.rest
 def test_the_command_line_makes_one_on_demand(tiles, tmp_path):
     words = ["classify", str(tiles), str(tmp_path / "out"), "--format", "copc.laz"]
     for more, exists in (([], False), (["--overview"], True)):

@@ -39,6 +39,7 @@ CLOUDS = {
 }
 
 
+@pytest.mark.rest(but="no stray point")
 @pytest.mark.parametrize("name", CLOUDS)
 def test_points_far_from_all_others_are_told_and_sites_are_not(tmp_path, name):
     points, expected = CLOUDS[name]
@@ -58,6 +59,7 @@ def test_a_stray_point_in_a_file_of_its_own_is_told(tmp_path):
     assert "1 point lies 38 km from all others" in said(*words)[2]
 
 
+@pytest.mark.rest
 def test_water_is_that_of_each_piece(tmp_path):
     scene = lake_scene("empty")
     columns = scene.x, scene.y, scene.z

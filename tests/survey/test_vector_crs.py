@@ -77,6 +77,7 @@ def highest(source, target, **options):
         return float(raster.read(1, masked=True).max())
 
 
+@pytest.mark.rest(but="a.geojson-EPSG:4326-None")
 @pytest.mark.parametrize(
     ("name", "crs", "stated"),
     [
@@ -138,6 +139,7 @@ def test_corrections_of_another_crs_give_their_class(cloud, tmp_path):
         assert summary.class_counts[6] > 1000
 
 
+@pytest.mark.rest(but="a.gpkg")
 @pytest.mark.parametrize("name", ["a.geojson", "a.gpkg", "a.shp"])
 def test_breaklines_keep_their_heights(cloud, tmp_path, name):
     line = np.column_stack((CORNERS[:2] - (0.0, 20.5), [58.0, 58.0]))
@@ -189,6 +191,7 @@ def test_geometry_may_lie_in_one_of_many_files(tmp_path, capsys):
     assert "No point of the files lies in the polygons without ground" in capsys.readouterr().err
 
 
+@pytest.mark.rest
 def test_a_river_that_meets_no_water_is_told(cloud, tmp_path):
     water = geojson(tmp_path / "water.geojson", moved(CORNERS, "EPSG:4326"))
     through, beside = (
@@ -226,6 +229,7 @@ def test_a_crs_that_is_not_known_is_one_sentence(cloud, tmp_path):
         highest(cloud, tmp_path / "a.tif", no_ground=path)
 
 
+@pytest.mark.rest
 def test_a_layer_of_several_must_be_named(cloud, tmp_path):
     path = by_library(tmp_path / "a.gpkg", CORNERS, UTM, layer="huts")
     by_library(path, FAR, UTM, layer="ponds", append=True)
@@ -251,6 +255,7 @@ def test_longitude_and_latitude_come_in_this_order():
     )
 
 
+@pytest.mark.rest(but="square-lonlat.geojson")
 @pytest.mark.parametrize("name", ["square-lonlat.geojson", "square-25833.geojson"])
 def test_squares_from_the_field(tmp_path, name):
     source, dtm = real("field/ground-25832.laz"), tmp_path / "o.tif"

@@ -215,6 +215,7 @@ def test_nested_pages_are_followed_only_where_the_window_is(octree):
     assert any("octree" in text for text in heard.warnings)
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize("nested", quick([False, True], True))
 def test_other_classes_leave_the_octree_as_it_is(las, octree, nested, monkeypatch):
     count = 1 + (nest_pages(octree) if nested else 0)
@@ -318,6 +319,7 @@ def overlap(entries):
 DAMAGES = [lose_a_node, swap_two_nodes, name_itself, leave_the_file, go_astray, overlap]
 
 
+@pytest.mark.rest(but="name_itself")
 @pytest.mark.parametrize("damage", DAMAGES)
 def test_a_damaged_octree_is_told_and_loses_no_point(octree, damage):
     cloud, heard = read_cloud(octree), Heard()

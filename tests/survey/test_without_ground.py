@@ -95,6 +95,7 @@ def test_of_the_ground_alone_files_without_any_are_named_and_not_written(roof, t
         classify(files[1:], out, **FAST, ground_only=True)
 
 
+@pytest.mark.rest
 def test_an_area_tells_of_its_points_only(roof, tmp_path):
     west, south = ORIGIN[:2]
     area = {"extent": (west + 31, south + 31, west + 40, south + 70)}
@@ -120,6 +121,7 @@ def test_a_survey_without_any_ground_is_refused_with_the_reason(name, roof, tmp_
     assert not (tmp_path / "new").exists()
 
 
+@pytest.mark.rest(but="water_classes-written with unchanged classes")
 @pytest.mark.parametrize(
     ("tool", "fate"),
     [
@@ -175,6 +177,7 @@ def test_a_raster_need_not_cover_all_files(classified, tmp_path):
         heights(files[1:], tmp_path / "alone", dtm=dtm)
 
 
+@pytest.mark.rest
 def test_rasters_and_quality_have_the_file(classified, tmp_path):
     folder = classified[0]
     terrain(folder, dtm=tmp_path / "dtm.tif", dsm=tmp_path / "dsm.tif", raster_per_file=True)
@@ -184,6 +187,7 @@ def test_rasters_and_quality_have_the_file(classified, tmp_path):
     assert quality(folder).points == 24_000
 
 
+@pytest.mark.rest
 def test_a_delivery_has_the_file(roof, tmp_path):
     files = [roof / f"t{column}{row}.laz" for column in range(3) for row in range(3)]
     summary = deliver(files, tmp_path / "out", delivery="forestry")

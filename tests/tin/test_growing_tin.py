@@ -56,6 +56,7 @@ def test_it_has_the_triangles_of_one_triangulation():
     assert np.allclose(_heights(tin, x, y)[0], once.interpolate(x, y))
 
 
+@pytest.mark.rest(but="_scattered")
 @pytest.mark.parametrize("make", [_scattered, _lattice])
 def test_each_edge_knows_its_twin(make):
     points = make()
@@ -69,6 +70,7 @@ def test_each_edge_knows_its_twin(make):
         assert np.array_equal(tin.corners[one], tin.corners[other])
 
 
+@pytest.mark.rest
 def test_vertices_on_edges_and_on_the_hull_leave_no_flat_triangle():
     points = _lattice()
     tin, _ = _grown(points, hull_corners(points.x, points.y))

@@ -26,6 +26,7 @@ def _residuals(points, keys):
     return points.z - Tin(*points.take(keys)).interpolate(points.x, points.y)
 
 
+@pytest.mark.rest(but="0.5-0.05")
 @pytest.mark.parametrize("above, below", [(0.15, 0.15), (0.5, 0.05), (0.05, 1.0), (0.0, 0.0)])
 def test_every_ground_point_is_within_the_tolerance(above, below):
     points = _hills()
@@ -111,6 +112,7 @@ def _parts(points, side, parameters):
     return keys
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize("grid_size", quick([7.0, 10.0], 7.0))
 def test_a_part_with_its_surroundings_has_the_key_points_of_the_whole(grid_size):
     points, parameters = _hills(300.0), ModelKeyPoints(grid_size=grid_size)
@@ -122,6 +124,7 @@ def test_a_part_with_its_surroundings_has_the_key_points_of_the_whole(grid_size)
     assert np.minimum(*inwards)[differ].max(initial=0.0) < grid_size
 
 
+@pytest.mark.rest
 def test_key_points_of_parts_keep_the_tolerance_together():
     points, parameters = _hills(300.0), ModelKeyPoints()
     residuals = _residuals(points, _parts(points, 100.0, parameters))

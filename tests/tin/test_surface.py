@@ -51,6 +51,7 @@ def small_blocks(monkeypatch):
     monkeypatch.setattr(module, "_VERTICES_A_BLOCK", 300)
 
 
+@pytest.mark.rest(but="villages-None")
 @pytest.mark.parametrize(("name", "max_edge"), covering(list(CLOUDS), [None, 8.0]))
 def test_blocks_give_the_heights_of_one_triangulation(small_blocks, name, max_edge):
     points = CLOUDS[name]
@@ -72,6 +73,7 @@ def test_blocks_give_the_heights_of_one_triangulation(small_blocks, name, max_ed
     assert np.isnan(found).any() and not np.isnan(found).all()
 
 
+@pytest.mark.rest(but="scattered")
 @pytest.mark.parametrize("shore", [0, 400], ids=["scattered", "all on one circle"])
 def test_a_lake_costs_as_its_shore_and_not_as_its_cells(small_blocks, monkeypatch, shore):
     """In the middle of a lake, the nearest vertex takes a search of the whole shore."""
@@ -118,6 +120,7 @@ def test_a_plane_on_a_regular_grid_is_exact_to_its_border(small_blocks):
     assert np.allclose(surface.heights(at_x, at_y), 3.0 + 0.2 * at_x - 0.1 * at_y, atol=1e-9)
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize("is_thinned", [False, True])
 def test_slivers_along_a_border_that_is_straight_but_for_centimetres(monkeypatch, is_thinned):
     random = np.random.default_rng(4)

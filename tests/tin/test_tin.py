@@ -18,6 +18,7 @@ def _scatter(count=2000, seed=1, size=100.0):
     return x, y, random.normal(0.0, 1.0, count)
 
 
+@pytest.mark.rest
 def test_every_query_inside_lies_in_the_triangle_it_is_located_in():
     tin = Tin(*_scatter())
     x, y, _ = _scatter(5000, seed=2)
@@ -79,6 +80,7 @@ def test_points_that_span_no_triangle_give_a_surface_without_heights(count):
     assert np.isnan(tin.interpolate(np.array([1.0]), np.array([2.0]))).all()
 
 
+@pytest.mark.rest
 def test_a_stray_vertex_far_away_does_not_slow_the_walk():
     def seconds(tin):
         begun = time.process_time()

@@ -165,6 +165,7 @@ def test_scattered_points_and_steep_planes_have_none():
 # Scenes
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize(
     ("kind", "size", "least"),
     [
@@ -182,6 +183,7 @@ def test_buildings_of_scenes_are_found(kind, size, least):
     assert np.array_equal(classes == 2, scene.ground)
 
 
+@pytest.mark.rest
 def test_a_forest_has_no_buildings():
     scene = scenes.make("steep_forest", 0, size=60.0)
     for several in (scene.number_of_returns > 1, np.zeros(scene.points.count, dtype=bool)):
@@ -189,6 +191,7 @@ def test_a_forest_has_no_buildings():
         assert np.count_nonzero(classes == 6) < 1e-3 * np.count_nonzero(classes == 5)
 
 
+@pytest.mark.rest
 def test_bridges_and_birds_have_classes_of_their_own():
     scene = scenes.make("bridge_over_road", 0, size=110.0)
     several = scene.number_of_returns > 1
@@ -242,6 +245,7 @@ def test_limits_must_not_decrease():
 # Files
 
 
+@pytest.mark.rest
 def test_the_order_of_the_points_and_threads_do_not_matter(village):
     points, ground = village.points, village.ground
     several = village.number_of_returns > 1
@@ -272,6 +276,7 @@ def test_one_file(file, village, tmp_path):
     assert again.changed_count == len(changed) and len(changed) < 1e-3 * len(classes)
 
 
+@pytest.mark.rest
 def test_the_files_of_a_survey_do_not_matter(finished, village, tmp_path):
     points, folder = village.points, tmp_path / "in"
     folder.mkdir()
@@ -290,6 +295,7 @@ def test_the_files_of_a_survey_do_not_matter(finished, village, tmp_path):
     assert above_ground([folder], tmp_path / "out", resume=True, **IGN).kept_count == 0
 
 
+@pytest.mark.rest
 def test_there_are_no_seams_between_blocks(file, finished, tmp_path, monkeypatch):
     monkeypatch.setattr(ClassifyAboveGround, "blocks", Blocks(45.0, 60.0, start=-0.00005))
     above_ground(file, tmp_path / "blocks.laz")
@@ -330,6 +336,7 @@ def test_only_points_of_the_area_change(file, finished, village, tmp_path):
     assert np.array_equal(after[~inside], before[~inside])
 
 
+@pytest.mark.rest
 def test_a_class_that_was_set_by_hand_stays(file, tmp_path):
     marked = tmp_path / "marked.laz"
     classify(file, marked, remember_classes=True)
@@ -381,6 +388,7 @@ def test_one_run_finds_the_ground_and_what_is_above(file, classified, village, t
     assert _iou(classes_of(one) == 6, village.classes == 6) > 0.93
 
 
+@pytest.mark.rest
 def test_one_run_on_many_files_also_makes_heights_and_goes_on(file, village, tmp_path):
     how = {**RUN, "height_above_ground": True}
     classify(file, tmp_path / "one.laz", **how)
@@ -409,6 +417,7 @@ def test_one_run_on_many_files_also_makes_heights_and_goes_on(file, village, tmp
     assert [path.read_bytes() for path in made] == before
 
 
+@pytest.mark.rest
 def test_one_run_also_makes_heights_and_rasters(file, classified, tmp_path):
     dtm, out = tmp_path / "dtm.tif", tmp_path / "all.laz"
     classify(file, out, height_above_ground=True, dtm=dtm, **RUN)
@@ -421,6 +430,7 @@ def test_one_run_also_makes_heights_and_rasters(file, classified, tmp_path):
     assert (tmp_path / "dtm.tif").exists()
 
 
+@pytest.mark.rest
 def test_polygons_of_corrections_hold_above_the_ground(file, village, tmp_path):
     x, y = village.points.x + ORIGIN[0], village.points.y + ORIGIN[1]
     west, south = np.median(x), np.median(y)
@@ -438,6 +448,7 @@ def test_polygons_of_corrections_hold_above_the_ground(file, village, tmp_path):
         assert {3, 4, 5, 6} <= set(found[~inside])
 
 
+@pytest.mark.rest
 def test_remembered_classes_are_those_of_the_whole_run(file, tmp_path):
     out, again = tmp_path / "out.laz", tmp_path / "again.laz"
     classify(file, out, remember_classes=True, **RUN)

@@ -36,6 +36,7 @@ def cells(path):
         return raster.read(1, masked=True).astype(float).filled(np.nan)
 
 
+@pytest.mark.rest(but="10.0")
 @pytest.mark.parametrize("size", [0.5, 1.0, 5.0, 10.0])
 def test_bare_slopes_have_no_canopy_in_cells_of_any_size(tmp_path, size):
     slope(tmp_path / "in.las")
@@ -63,6 +64,7 @@ def test_units_and_all_returns_do_not_change_it(tmp_path):
     assert np.nanmax(cells(tmp_path / "chm.tif")) == pytest.approx(TREE, abs=0.1)
 
 
+@pytest.mark.rest
 def test_the_surface_and_the_canopy_have_values_in_the_same_cells(tmp_path):
     slope(tmp_path / "in.las", tree=True)
     files = {name: tmp_path / f"{name}.tif" for name in ("dtm", "dsm", "chm")}

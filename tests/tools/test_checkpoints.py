@@ -42,6 +42,7 @@ def tin(x, y, z, classes):
     return LinearNDInterpolator(np.column_stack((x, y))[ground], z[ground])
 
 
+@pytest.mark.rest
 def test_heights_are_those_of_an_independent_triangulation(survey):
     xy = places(80)
     independent = tin(*cloud())(xy)
@@ -51,6 +52,7 @@ def test_heights_are_those_of_an_independent_triangulation(survey):
     assert max(abs(done.nva.minimum), abs(done.nva.maximum)) < 0.001
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize("rounds", quick([(32, 64), (32,), (8_000,)], (32, 64)))
 def test_with_few_points_at_first_others_are_looked_at_again(survey, monkeypatch, rounds):
     xy = places(40)
@@ -189,6 +191,7 @@ def test_a_terrain_model_and_its_confidence(survey, tmp_path):
     assert 0 < len(few.not_counted["doubtful"]) == 60 - few.counted
 
 
+@pytest.mark.rest
 def test_the_expected_error_is_compared_with_the_errors(survey, tmp_path):
     dtm, error = tmp_path / "dtm.tif", tmp_path / "error.tif"
     assert main(["terrain", str(survey), "--dtm", str(dtm), "--expected-error", str(error)]) == 0

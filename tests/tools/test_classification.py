@@ -57,6 +57,7 @@ def long_scene():
     return Points(x, y, np.where(roof, z + 6, z))
 
 
+@pytest.mark.rest(but="tin-densification")
 @pytest.mark.parametrize("parameters", PARAMETERS, ids=METHODS)
 def test_in_an_area_the_result_is_that_of_the_whole_survey(parameters, long_scene):
     cloud = cloud_of(long_scene, classes=6)
@@ -69,6 +70,7 @@ def test_in_an_area_the_result_is_that_of_the_whole_survey(parameters, long_scen
     assert (found[~inside] == 6).all() and np.array_equal(selected, inside)
 
 
+@pytest.mark.rest
 def test_however_many_points_are_looked_at_together_the_result_is_the_same(monkeypatch, long_scene):
     random = np.random.default_rng(9)
     classes = random.choice([1, 2, 5, 7, 9], long_scene.count)
@@ -219,6 +221,7 @@ def test_without_known_ground_there_is_a_warning(scene):
     assert progress.warnings == ["There are no points of known ground (class 2, 8)."]
 
 
+@pytest.mark.rest(but="tin-densification")
 @pytest.mark.parametrize("parameters", PARAMETERS, ids=METHODS)
 def test_every_method_keeps_known_ground(parameters, scene):
     points, truth = scene
@@ -236,6 +239,7 @@ def is_low(points):
     return points.z < 100 + 0.1 * points.x + 0.8 * np.sin(points.y / 15) - 4
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize("method", quick(METHODS, "grid-minimum"))
 def test_low_outliers_go_to_class_7_where_wanted(method, scene):
     (points, truth), parameters = scene, METHODS[method].parameters()
@@ -322,6 +326,7 @@ def test_without_an_area_it_is_all(file, scene):
     assert summary.area_ground_count == summary.ground_count
 
 
+@pytest.mark.rest(but="7-out.laz")
 @pytest.mark.parametrize(
     ("point_format", "target"), covering([1, 7], ["out.las", "out.laz", "out.copc.laz"])
 )

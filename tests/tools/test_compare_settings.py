@@ -57,6 +57,7 @@ def made(source):
     return summary, page.read_text(encoding="utf-8")
 
 
+@pytest.mark.rest
 def test_each_setting_finds_what_it_finds_on_the_whole_file(source, made, tmp_path):
     x, y, _, _ = scene()
     for setting in made[0].settings:
@@ -104,6 +105,7 @@ def figures(summary):
     ]
 
 
+@pytest.mark.rest
 def test_a_survey_of_tiles_and_a_copc_file_give_the_same(source, made, tmp_path):
     x, *_ = scene()
     (tmp_path / "tiles").mkdir()
@@ -123,6 +125,7 @@ def test_a_survey_of_tiles_and_a_copc_file_give_the_same(source, made, tmp_path)
     assert tiles.settings[0]["shell"].split()[3].endswith("tiles_tin-densification_automatic")
 
 
+@pytest.mark.rest
 def test_feet_are_converted(made, tmp_path):
     source = write(tmp_path / "feet.laz", epsg=2222, unit=FOOT)  # Arizona East, feet
     box = [start + metres / FOOT for metres in (20, 100) for start in ORIGIN]
@@ -138,6 +141,7 @@ def test_feet_are_converted(made, tmp_path):
         assert one["terrain_difference"] == pytest.approx(other["terrain_difference"], abs=0.05)
 
 
+@pytest.mark.rest
 def test_the_context_is_told_and_can_be_chosen(source, made, tmp_path):
     assert made[0].context == 50.0
     assert "50 m round the window were read" in made[1] and "look up to 180 m far" in made[1]
@@ -198,6 +202,7 @@ def test_a_cancel_leaves_nothing(source, tmp_path):
     assert not list(tmp_path.iterdir())
 
 
+@pytest.mark.rest
 def test_without_a_window_the_middle_is_taken(source, tmp_path, capsys):
     x, *_ = scene()
     page, progress = tmp_path / "p.html", Heard()
@@ -222,6 +227,7 @@ def test_the_middle_of_a_wide_survey_is_250_m_wide(tmp_path):
     assert summary.window == (*corner, corner[0] + 250, corner[1] + 250)
 
 
+@pytest.mark.rest(but="True")
 @pytest.mark.parametrize("as_tiles", [False, True])
 def test_in_a_gap_the_nearest_points_are_taken(tmp_path, as_tiles):
     rows = np.arange(0.0, 1000.0, 4.0)

@@ -75,6 +75,7 @@ def test_a_breakline_without_heights_lies_on_the_ground_beside_it(wall, tmp_path
     assert np.nanmean(np.abs(found - truth)[away] > 0.05) < 0.001
 
 
+@pytest.mark.rest(but="heights3-1 lie more than 10 m from it")
 @pytest.mark.parametrize(
     ("heights", "told"),
     [((0.0, 0.0), "2 of 2 corners.*2 are 0, up to 10.0 m away"),
@@ -143,6 +144,7 @@ def test_a_lake_is_flat_at_the_level_of_its_banks(lake, tmp_path):
     assert np.allclose(found[outside], plain[outside], atol=0.03, equal_nan=True)
 
 
+@pytest.mark.rest
 def test_ignored_ground_along_the_shore_gives_the_level_but_no_terrain(tmp_path):
     # Banks rise by one half, so that ground 2 m away is 1 m too high for the level.
     x, y = scatter(SIZE, 4.0, seed=5)
@@ -164,6 +166,7 @@ def test_ignored_ground_along_the_shore_gives_the_level_but_no_terrain(tmp_path)
     assert np.all(along > 20.9)
 
 
+@pytest.mark.rest
 def test_points_of_class_9_in_the_water_decide_its_level(tmp_path):
     """The banks of this canal are 1 m above the water, and fall; a few returns are far below it."""
     x, y = scatter(SIZE, 1.0, seed=6)
@@ -231,6 +234,7 @@ def test_the_level_of_a_river_steps_at_a_weir(tmp_path):
     assert np.abs(found[wet & (x > 74.0) & (x < 115.0)] - 20.0).max() < 0.15
 
 
+@pytest.mark.rest(but="False")
 @pytest.mark.parametrize("down", [True, False])
 def test_a_river_falls_along_its_line_and_is_level_across(tmp_path, down):
     x, y = scatter(SIZE, 1.0, seed=5)
@@ -263,6 +267,7 @@ def test_where_there_is_no_ground_the_terrain_is_that_round_about(tmp_path):
         _raster(source, tmp_path / "none.tif", no_ground=(everywhere,))
 
 
+@pytest.mark.rest
 def test_many_files_give_the_raster_of_one(wall, tmp_path):
     source, lines = wall
     las = laspy.read(source)
@@ -280,6 +285,7 @@ def test_many_files_give_the_raster_of_one(wall, tmp_path):
     assert np.array_equal(*rasters, equal_nan=True)
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize("how", ["one", pytest.param("parts", marks=pytest.mark.long), "many"])
 def test_a_run_that_classifies_makes_the_terrain_of_what_it_writes(tmp_path, how):
     # A lake with points on it, in a slope; a wall that a line knows.
@@ -322,6 +328,7 @@ def test_a_run_without_rasters_takes_no_lines(wall, tmp_path):
         classify(source, tmp_path / "out.laz", breaklines=lines)
 
 
+@pytest.mark.rest
 def test_the_terrain_command_takes_files_of_lines_and_polygons(wall, tmp_path, capsys):
     source, lines = wall
     features = [

@@ -83,6 +83,7 @@ def test_lines_are_those_of_a_library():
     assert len(found) > 300
 
 
+@pytest.mark.rest(but="edges1")
 @pytest.mark.parametrize("edges", [(1,), (45,), (30, 31, 32), (5, 40, 88), tuple(range(1, 89))])
 def test_strips_make_no_difference(edges):
     heights = bumps()
@@ -123,6 +124,7 @@ def read(path):
     return content, [feature["properties"] for feature in content["features"]], shapes
 
 
+@pytest.mark.rest
 def test_noise_makes_no_specks_and_lines_stay_where_they_are(tmp_path):
     noisy = noisy_slope()
     noisy[100:110, 100:110] = np.nan
@@ -220,6 +222,7 @@ def test_depressions_do_not_depend_on_how_rows_run(turned, tmp_path):
             assert (area < 0) == bool(value["DEPRESSION"])
 
 
+@pytest.mark.rest
 def test_strips_make_no_difference_to_knolls(tmp_path, monkeypatch):
     path = raster(tmp_path / "dtm.tif", knolls_and_pits())
     contours(path, tmp_path / "one.geojson", interval=0.25)
@@ -285,6 +288,7 @@ def test_a_raster_without_heights_is_told(tmp_path):
     assert any("has no cell with a height" in text for text in heard.warnings)
 
 
+@pytest.mark.rest(but=".fgb")
 @pytest.mark.parametrize("suffix", [".gpkg", ".shp", ".fgb", ".geojson"])
 def test_all_formats_hold_the_same_lines(tmp_path, suffix):
     pyogrio = pytest.importorskip("pyogrio")
@@ -301,6 +305,7 @@ def test_all_formats_hold_the_same_lines(tmp_path, suffix):
     assert len(found) == len(shapes) > 20
 
 
+@pytest.mark.rest
 def test_strips_of_a_raster_make_no_difference(tmp_path, monkeypatch):
     path = raster(tmp_path / "dtm.tif", bumps(120, 90))
     contours(path, tmp_path / "one.geojson")
@@ -350,6 +355,7 @@ def test_the_commands_draw_the_same_lines(tmp_path):
     ]  # fmt: skip
 
 
+@pytest.mark.rest(but="False")
 @pytest.mark.parametrize("many", [False, True])
 def test_a_cancel_while_lines_are_drawn_leaves_no_raster(many, tmp_path):
     x, y = np.random.default_rng(1).uniform(0.0, 60.0, (2, 4000))

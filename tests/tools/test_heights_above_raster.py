@@ -78,6 +78,7 @@ def test_heights_above_a_raster_as_z(tmp_path):
     np.testing.assert_allclose(np.asarray(laspy.read(target).z), true_heights(source), atol=0.0015)
 
 
+@pytest.mark.rest
 def test_memory_and_squares_change_nothing(tmp_path, monkeypatch):
     source = points(tmp_path / "in.las", count=9000)
     raster, progress = dtm(tmp_path / "dtm.tif", hole=True), Heard()

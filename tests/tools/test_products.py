@@ -316,6 +316,7 @@ def test_a_canopy_is_never_negative():
     assert np.array_equal(height, [3.0, 0.0, np.nan, np.nan], equal_nan=True)
 
 
+@pytest.mark.rest(but="dsm")
 @pytest.mark.parametrize("name", ["dtm", "dsm", "chm", "hillshade"])
 def test_each_raster_alone_is_the_same(tmp_path, name):
     scene(tmp_path / "in.las")
@@ -342,6 +343,7 @@ def test_gaps_are_filled_up_to_the_maximum_edge(tmp_path):
     assert not np.isnan(dtm[1:8, 1:28]).any()
 
 
+@pytest.mark.rest
 def test_the_surface_of_first_or_of_all_returns(tmp_path):
     scene(tmp_path / "in.las")
     las = laspy.read(tmp_path / "in.las")
@@ -374,6 +376,7 @@ def test_rasters_are_in_the_units_of_the_crs(tmp_path):
     assert np.nanmax(chm) == pytest.approx(120 - 103, abs=0.5)
 
 
+@pytest.mark.rest
 def test_all_rasters_or_none(tmp_path, monkeypatch):
     scene(tmp_path / "in.las")
 
@@ -403,6 +406,7 @@ def test_rasters_that_cannot_be_made(tmp_path, files, text):
         bare_earth.terrain(tmp_path / "in.las", **files)
 
 
+@pytest.mark.rest(but="0.0")
 @pytest.mark.parametrize("fraction", [0.0, 0.3, 0.6, 0.8, 0.95, 1.0])
 def test_a_cancel_leaves_nothing(tmp_path, fraction):
     scene(tmp_path / "in.las")
@@ -447,6 +451,7 @@ def test_the_commands(tmp_path, capsys):
     assert "Tolerance above must be at least" in capsys.readouterr().err
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize("as_z", [False, True])
 def test_heights_of_many_files_are_those_of_one(tmp_path, as_z):
     points = strip(6000, 240.0, 120.0)

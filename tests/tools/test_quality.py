@@ -54,6 +54,7 @@ def test_the_density_of_a_regular_grid(tmp_path):
     assert found.comparison == []
 
 
+@pytest.mark.rest(but="lbs-ql2-0.5-True")
 @pytest.mark.parametrize(
     "name, step, passes", [("lbs-ql1", 0.5, False), ("lbs-ql2", 0.5, True), ("lbs-ql1", 0.25, True)]
 )
@@ -133,6 +134,7 @@ def test_a_low_confidence_area_under_trees_is_told_from_a_roof(tmp_path):
     assert low_confidence(areas)[0][0]["RETURNS"] > 0.95
 
 
+@pytest.mark.rest(but="enough ground")
 @pytest.mark.parametrize("why", ["smaller", "enough ground", "specification", "water", "building"])
 def test_what_is_no_low_confidence_area(tmp_path, why):
     share = {"enough ground": 0.5, "specification": 0.2}.get(why, 0.1)
@@ -270,6 +272,7 @@ def test_few_compared_cells_are_no_pass(tmp_path):
     assert states(found)["Differences between strips"] == "look" and found.passes is None
 
 
+@pytest.mark.rest
 def test_points_that_files_share_duplicates_and_points_that_were_not_measured_are_no_pulses(
     tmp_path,
 ):
@@ -338,6 +341,7 @@ def infilled_scene(**made):
     return x[which], y[which], z, columns, is_made
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize("kind", MADE)
 def test_points_that_were_made_are_neither_pulses_nor_strips_and_are_told(tmp_path, kind):
     x, y, z, columns, is_made = infilled_scene(**MADE[kind])
@@ -353,6 +357,7 @@ def test_points_that_were_made_are_neither_pulses_nor_strips_and_are_told(tmp_pa
     assert f"ed: {is_made.sum():,}" in found.no_pulses or kind == "synthetic"
 
 
+@pytest.mark.rest
 def test_measured_points_of_producers_classes_and_without_any_return_numbers_count(tmp_path):
     x, y, z, columns = scene()
     whole = measured(write(tmp_path / "in.laz", x, y, z, **columns))
@@ -392,6 +397,7 @@ def test_all_figures_are_those_of_a_computation_by_hand(tmp_path):
         assert found[name] == pytest.approx(value, rel=1e-6), name
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize("flag", ["flag", "class 12"])
 def test_points_of_overlap_are_no_pulses(tmp_path, flag):
     x, y = grid(0.25)
@@ -485,6 +491,7 @@ def one_and_many(tmp_path_factory):
     return one, many
 
 
+@pytest.mark.rest
 def test_many_files_equal_one(one_and_many, tmp_path):
     one, many = one_and_many
     first = measured(one, specification="lbs-ql2", folder=tmp_path / "one")
@@ -502,6 +509,7 @@ def same_rasters(one, other, tolerance):
         np.testing.assert_allclose(heights_of(path), heights_of(other / path.name), atol=tolerance)
 
 
+@pytest.mark.rest
 def test_pieces_and_cells_on_disk_change_nothing(one_and_many, tmp_path, monkeypatch):
     one, _ = one_and_many
     measured(one, folder=tmp_path / "whole")
@@ -551,6 +559,7 @@ def test_feet_are_converted(tmp_path):
     assert np.nanmax(heights) == pytest.approx(terrain(x, y).max() / foot, abs=0.01)
 
 
+@pytest.mark.rest
 def test_a_cancel_leaves_no_output_and_old_ones_as_they_were(one_and_many, tmp_path):
     page, folder = tmp_path / "page.html", tmp_path / "rasters"
     run = {"page": page, "folder": folder}

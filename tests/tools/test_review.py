@@ -203,6 +203,7 @@ def test_the_page_shows_points_in_their_classes_with_axes(rasters, tmp_path):
     assert ">55</text>" in text and ">55</text>" not in plain.read_text(encoding="utf-8")
 
 
+@pytest.mark.rest
 def test_what_answers_changed_is_told_for_all_and_for_each_place(rasters, tmp_path):
     found, _ = reviewed(rasters)
     found.loc[0, "class"] = 2
@@ -227,6 +228,7 @@ def test_what_answers_changed_is_told_for_all_and_for_each_place(rasters, tmp_pa
     assert "the same as in the run before" in same.text
 
 
+@pytest.mark.rest
 def test_one_run_classifies_and_makes_the_places_with_carried_answers(rasters, tmp_path):
     places, again = tmp_path / "places.gpkg", tmp_path / "again.gpkg"
     how = {"crs": 25832, "dtm_cell_size": 1.0}

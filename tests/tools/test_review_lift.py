@@ -16,6 +16,7 @@ def square(west, south, side=20.0):
     return (np.add(corners, (OFFSET[0] + west, OFFSET[1] + south)),)
 
 
+@pytest.mark.rest(but="False")
 @pytest.mark.parametrize("is_split", [False, True])
 def test_a_hill_lifts_its_place_and_a_roof_does_not(tmp_path, is_split):
     x, y = np.random.default_rng(5).uniform(0, 120, (2, 60_000))

@@ -81,6 +81,7 @@ def test_a_help_names_tools_and_options_as_its_reader_knows_them():
     assert here == "As bare_earth.remove_off_terrain_objects() does, with 'max_edge'."
 
 
+@pytest.mark.rest
 def test_a_command_imports_no_other_tool():
     code = (
         "import sys; from bare_earth.algorithms.cli import main; main(['height', '--help']);"

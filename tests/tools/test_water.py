@@ -25,6 +25,7 @@ from bare_earth.algorithms.tools.water.descent import isotonic
 from bare_earth.algorithms.tools.water.grid import cell_for, grids_of
 
 
+@pytest.mark.rest(but="empty")
 @pytest.mark.parametrize("kind", ["empty", "sparse", "class 9"])
 def test_a_lake_is_found_with_its_level(kind):
     (body,) = lake_scene(kind).water()
@@ -117,6 +118,7 @@ def sparser_half(scene):
     scene.keep((scene.x < 200) | (scene.random.random(len(scene.x)) < 0.15))
 
 
+@pytest.mark.rest(but="dense_forest")
 @pytest.mark.parametrize(
     ("changed", "slope_and_waves"),
     covering(
@@ -159,6 +161,7 @@ def survey(tmp_path_factory):
     return folder
 
 
+@pytest.mark.rest
 def test_many_files_give_the_same_as_one(survey, tmp_path, capsys):
     run("water", survey / "in.laz", tmp_path / "one.geojson", "--json")
     figures = json.loads(capsys.readouterr().out)
@@ -190,6 +193,7 @@ def test_polygons_and_breaklines_are_read_again(survey, tmp_path, suffix):
     assert np.ptp(line[:, 2]) == 0 and abs(line[0, 2] - LEVEL) < 0.2
 
 
+@pytest.mark.rest
 def test_a_terrain_model_with_the_water_that_is_found(survey, tmp_path):
     rasterio = pytest.importorskip("rasterio")
     run("terrain", survey / "in.laz", "--dtm", tmp_path / "dtm.tif", "--water", "automatic")
@@ -235,6 +239,7 @@ def test_too_many_cells_are_refused():
     assert cell_for(1e6, 250_000, 2.0) == 2.0
 
 
+@pytest.mark.rest
 def test_water_in_feet_has_its_level_in_feet(tmp_path):
     scene = lake_scene("empty")
     feet = 0.3048
@@ -246,6 +251,7 @@ def test_water_in_feet_has_its_level_in_feet(tmp_path):
     assert feature["properties"]["AREA"] == pytest.approx(15_800, rel=0.05)
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize("number", quick([0, 2], 2))
 def test_a_pond_full_of_returns_is_found_without_its_class(number, tmp_path):
     import laspy

@@ -64,6 +64,7 @@ BRIDGES = [
 ]
 
 
+@pytest.mark.rest(but="empty-bridge0")
 @pytest.mark.parametrize("kind, bridge", BRIDGES)
 def test_a_river_goes_on_below_a_bridge(kind, bridge):
     scene = bridged(kind, **bridge)
@@ -80,6 +81,7 @@ def test_a_river_goes_on_below_a_bridge(kind, bridge):
     assert (true & found).sum() > 0.85 * (true | found).sum()
 
 
+@pytest.mark.rest(but="empty")
 @pytest.mark.parametrize(("half", "kind"), [(12.0, "empty"), (20.0, "class 9")])
 def test_a_stream_narrower_than_its_bridge_goes_on_below_it(half, kind):
     def stream(x, y):
@@ -140,6 +142,7 @@ def test_a_causeway_parts_two_lakes():
     assert [body.kind for body in scene.water()] == ["lake", "lake"]
 
 
+@pytest.mark.rest(but="0.0")
 @pytest.mark.parametrize("drop", [0.0, 3.0])
 def test_only_water_with_one_level_is_one_lake(drop):
     """A bridge crosses a lake, or a weir between two lakes."""
@@ -166,6 +169,7 @@ def test_abutments_are_no_shore():
         assert body.kind == "river" and overlap([body], reach, (150.0, 150.0)) > 0.9
 
 
+@pytest.mark.rest
 def test_the_terrain_has_no_dam_below_a_bridge(tmp_path):
     rasterio = pytest.importorskip("rasterio")
     """The river begins and ends within the survey, because rasters end where the points do."""
@@ -212,6 +216,7 @@ def test_bridges_without_water_below_them_are_told(tmp_path, capsys):
     assert "bridge has no water" not in told[1]
 
 
+@pytest.mark.rest
 def test_the_page_of_a_flood_model_begins_with_bridges_that_may_dam_a_stream(tmp_path):
     scene = Scene(LONG, HIGH, density=1.0)
     scene.basin(river, level)

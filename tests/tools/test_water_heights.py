@@ -45,6 +45,7 @@ def surveys(tmp_path_factory):
     return make
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize(("kind", "is_one"), covering(WATERS, [True, False]))
 def test_each_cell_of_water_has_the_level_of_polygons_and_breaklines(
     surveys, tmp_path, kind, is_one
@@ -63,6 +64,7 @@ def test_each_cell_of_water_has_the_level_of_polygons_and_breaklines(
     assert share_at_level(water, dsm) > 0.97
 
 
+@pytest.mark.rest
 def test_the_expected_error_of_ground_points_has_no_value_in_water(surveys, tmp_path):
     source, _ = surveys("lake")
     water, dtm, sure = (tmp_path / name for name in ("water.gpkg", "dtm.tif", "sure.tif"))
@@ -78,6 +80,7 @@ def test_the_expected_error_of_ground_points_has_no_value_in_water(surveys, tmp_
     assert not found.mask[is_land & ~heights.mask].any()
 
 
+@pytest.mark.rest
 def test_no_contour_line_runs_through_flat_water(surveys, tmp_path):
     source, _ = surveys("lake")
     water, dtm = tmp_path / "water.gpkg", tmp_path / "dtm.tif"

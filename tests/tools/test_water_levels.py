@@ -116,6 +116,7 @@ SCENES = {
 }
 
 
+@pytest.mark.rest(but="two rivers that meet at the border")
 @pytest.mark.parametrize("name", SCENES)
 def test_each_branch_of_a_river_has_its_own_level(name):
     channels, size, branches = SCENES[name]
@@ -268,6 +269,7 @@ def test_levels_step_where_banks_do():
     assert np.abs(descent(line, station, heights, 10.0).levels - truth).max() < 0.3
 
 
+@pytest.mark.rest
 def test_a_region_is_cut_into_reaches_in_time_that_follows_its_cells():
     """A round lake of 3 million cells is one chain."""
     row, column = np.ogrid[-1000:1001, -1000:1001]
