@@ -187,6 +187,7 @@ def test_two_files_get_the_same_as_one(made, scene, name):
     assert written == {"east.laz", "west.laz"} and os.path.exists(many.cloud)
 
 
+@pytest.mark.rest
 def test_classes_are_those_of_the_command(made, scene, tmp_path):
     summary, folder = made("survey")
     how = {"low_noise_class": True, "high_noise_class": True, "bridge_class": 17}
@@ -197,6 +198,7 @@ def test_classes_are_those_of_the_command(made, scene, tmp_path):
     assert np.mean((own == 2) == (truth == 2)) > 0.99 and summary.ground_count == (own == 2).sum()
 
 
+@pytest.mark.rest
 def test_water_is_flat_in_the_terrain_model_and_it_is_that_of_the_commands(made, tmp_path):
     summary, folder = made("flood")
     assert summary.water.lakes == 1 and summary.water.area == pytest.approx(1520.0, rel=0.15)
@@ -307,6 +309,7 @@ def test_the_lists_of_files_with_classes_of_water_are_those_of_their_places(scen
     assert {name for name in os.listdir(tmp_path / "out") if name[0] == "."} == {".bare-earth"}
 
 
+@pytest.mark.rest
 def test_water_that_was_found_gives_classes_in_one_file_and_in_two(made):
     (one, folder), (many, _) = made("flood"), made("flood", is_one=False)
     (water,) = read_boundary(folder / "water.gpkg")
@@ -355,6 +358,7 @@ def test_a_specification_brings_the_classes_that_it_asks_for(scene, tmp_path):
     assert summary.cell_size == 0.5
 
 
+@pytest.mark.rest
 def test_forestry_has_heights_and_classes_of_vegetation(made, scene):
     _, folder = made("forestry")
     las = laspy.read(folder / "points" / "whole.laz")
@@ -365,6 +369,7 @@ def test_forestry_has_heights_and_classes_of_vegetation(made, scene):
     assert np.mean(np.asarray(las.classification)[crowns] == 5) > 0.95
 
 
+@pytest.mark.rest
 def test_archaeology_has_a_terrain_with_the_house_on_it(made):
     summary, folder = made("archaeology")
     dtm, with_house = (

@@ -91,6 +91,7 @@ def test_labels_do_not_depend_on_the_height_of_the_survey(method, survey, up):
     assert np.array_equal(raised, ground_of(survey, method))
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize("method", quick(METHODS, "slope"))
 @SETTINGS
 @given(survey=surveys())

@@ -21,6 +21,21 @@ sys.path += [str(Path(__file__).parent), str(Path(__file__).parents[1] / "remote
 
 from support import ALGORITHM, ROOT, Log, Scene, remove
 
+# The files that run every day, in a minute, and a run of each kind. All else is `rest`.
+DAILY = {
+    "assess", "check", "choices", "contours_and_clips", "enumerations", "fields", "file_tools",
+    "metadata", "models", "off_terrain", "outputs", "provider", "raster_rows", "review",
+    "review_dock", "small_screens", "suggested_input", "tools", "translations", "water",
+    "test_run", "test_a_broken_file_is_told_and_the_others_are_done",
+    "test_a_new_delivery_is_one_row",
+}  # fmt: skip
+
+
+def pytest_itemcollected(item):
+    """Leave out of the daily tests what is not among these."""
+    if not {item.path.stem.replace("test_", ""), item.originalname} & DAILY:
+        item.add_marker("rest")
+
 
 @pytest.fixture(scope="session", autouse=True)
 def qgis_app(tmp_path_factory):

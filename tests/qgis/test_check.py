@@ -149,6 +149,7 @@ def test_polygons_as_checkpoints_are_refused(cloud):
         processing.run(ALGORITHM, {"INPUT": str(cloud), "CHECKPOINTS": areas})
 
 
+@pytest.mark.rest
 def test_held_out_points_need_no_checkpoints(cloud, tmp_path):
     import processing
 

@@ -57,6 +57,7 @@ def test_the_table_of_batch_mode_has_labels_too(plugin):
     remove(dialog)
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize("name", [TIN, "bareearth:classifytiles", "bareearth:relief"])
 def test_a_saved_table_of_batch_mode_can_be_run(name, plugin):
     from processing.gui.BatchAlgorithmDialog import BatchAlgorithmDialog

@@ -27,6 +27,7 @@ def run(name, values, outputs, folder):
     return {title_of(layer): layer for layer in project.mapLayers().values()}
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize("name", OUTPUTS)
 def test_a_layer_says_what_made_it_when_and_how(name, scene, tmp_path, context, registry):
     given = {"INPUT": str(scene.path), "DTM_CELL_SIZE": 2.0}

@@ -530,6 +530,7 @@ def test_a_missing_package_is_told(algorithm, monkeypatch, package):
     assert ("zip" in text) == (package == "laspy")
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize("package", ["laspy", "lazrs", "copclib", "scipy"])
 def test_the_plugin_loads_without(package):
     # In a QGIS of its own, as in this one the package is imported already.
@@ -584,6 +585,7 @@ def test_unknown_parameters_are_told(name, registry, scene, tmp_path, context, l
     assert "PRESETT" in told[1] and "Did you mean PRESET?" in told[1]
 
 
+@pytest.mark.rest
 def test_qgis_process_tells_of_unknown_parameters(qgis_process, scene, tmp_path):
     words = f"INPUT={scene.path}", f"OUTPUT={tmp_path / 'ground.laz'}", "OUPUT=x.laz"
     done = qgis_process("run", ALGORITHM, "--", *words)

@@ -208,6 +208,7 @@ def press(*keys):
 """
 
 
+@pytest.mark.rest
 def test_ten_places_are_answered_with_ten_keys(reviewed, tmp_path):
     answer = window_of(tmp_path).window(
         STEPS
@@ -256,6 +257,7 @@ settle()
     assert kept == sorted(one for _, one in expected if one != SKIP)
 
 
+@pytest.mark.rest
 def test_the_project_remembers_where_places_come_from(reviewed, tmp_path):
     found = sources_of(str(tmp_path / "places.gpkg"), QgsProject.instance())
     names = [Path(path).name for path in (found.cloud, found.dtm, found.error)]

@@ -36,6 +36,7 @@ def test_all_dialogs_fit(registry):
                 assert wanted <= area.width() - bar, f"{name}: {wanted} of {area.width()}"
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize("locale", ["de", "fr"])
 def test_long_choices_do_not_make_a_dialog_wide(registry, speak, locale):
     # Labels above fields are wider in these languages, QGIS's own ones too.
