@@ -1,6 +1,7 @@
 """Which tests are left out, and how many."""
 
 import sys
+from types import SimpleNamespace
 
 import pytest
 
@@ -36,4 +37,5 @@ def pytest_deselected(items):
 def pytest_testnodedown(node):
     """Let the last line say how many these are: each process leaves out the same."""
     stats = node.config.pluginmanager.get_plugin("terminalreporter").stats
-    stats["deselected"] = [None] * getattr(node, "workeroutput", {}).get("left_out", 0)
+    count = getattr(node, "workeroutput", {}).get("left_out", 0)
+    stats["deselected"] = [SimpleNamespace()] * count
