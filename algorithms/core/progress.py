@@ -59,6 +59,10 @@ class Progress:
             self.part((end - weight) / whole, end / whole) for weight, end in zip(weights, ends)
         ]
 
+    def once(self) -> Progress:
+        """Return a progress that passes on each warning only once."""
+        return _Once(self)
+
     def quiet(self) -> Progress:
         """Return a progress that passes on fractions, but drops messages."""
         return _Quiet(self)
@@ -98,6 +102,17 @@ class _Part(PassingOn):
 
     def report(self, fraction: float) -> None:
         self._whole(self._start + fraction * (self._end - self._start))
+
+
+class _Once(PassingOn):
+    def __init__(self, whole: Progress) -> None:
+        super().__init__(whole)
+        self._told: set[str] = set()
+
+    def warning(self, text: str) -> None:
+        if text not in self._told:
+            self._told.add(text)
+            self._whole.warning(text)
 
 
 class _Quiet(Progress):

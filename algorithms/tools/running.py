@@ -134,6 +134,7 @@ def _with_found_inputs(
     tool: Tool, inputs: dict[str, Any], sets: Sequence[ParameterSet], progress: Progress
 ) -> tuple[dict[str, Any], Progress]:
     """Return the inputs with the values in place of `ToFind`, and the rest of the progress."""
+    progress = progress.once()  # the points are opened to find something, and for the run
     for declared in tool.inputs:
         value = inputs.get(declared.name)
         if isinstance(value, ToFind) and declared.found is not None:

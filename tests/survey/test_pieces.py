@@ -48,8 +48,10 @@ def test_points_far_from_all_others_are_told_and_sites_are_not(tmp_path, name):
     assert code == 0 and expected in told
     assert told.count("from all others") == (2 if name == "two apart" else bool(expected))
     if name == "two at one place":
-        code, _, told = said("terrain", path, "--dtm", tmp_path / "a.tif", "--dtm-cell-size", 50)
-        assert code == 0 and told.count(expected) == 1
+        words = "terrain", path, "--dtm", tmp_path / "a.tif", "--dtm-cell-size", 50
+        for more in ((), ("--water", "automatic")):
+            code, _, told = said(*words, *more)
+            assert code == 0 and told.count(expected) == 1
 
 
 def test_a_stray_point_in_a_file_of_its_own_is_told(tmp_path):
