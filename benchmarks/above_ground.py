@@ -11,7 +11,6 @@ from __future__ import annotations
 
 import argparse
 import contextlib
-import re
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, Iterator, NamedTuple
@@ -26,6 +25,7 @@ from bare_earth.algorithms.tools.above_ground import buildings
 from bare_earth.algorithms.tools.above_ground.classes import AboveGround, classes_above_ground
 from benchmarks.clouds import classify_cloud
 
+from . import marked
 from .data import read_cloud, real
 from .scenes import REPORTING_SEEDS, TUNING_SEEDS, make
 
@@ -238,14 +238,10 @@ def main() -> None:
         "tiles": of_tiles(), "forests": of_forests(), "scenes": of_scenes(),
         "constants": of_constants(),
     }  # fmt: skip
-    text = PAGE.read_text("utf-8")
     for name, rows in tables.items():
         print(*rows, sep="\n", end="\n\n")
-        block = "\n".join(rows)
-        marks = re.compile(rf"(<!-- {name} -->\n).*?(?=<!-- end -->)", re.DOTALL)
-        text = marks.sub(lambda found, block=block: f"{found[1]}{block}\n", text)
-    if options.write:
-        PAGE.write_text(text, "utf-8")
+        if options.write:
+            marked.fill(PAGE, name, rows)
 
 
 if __name__ == "__main__":

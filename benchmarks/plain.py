@@ -14,7 +14,9 @@ is off, and percent of the ground round it that is kept.
 runs a group or values of `benchmarks/rules.py`, or gives a rule a value, as in
 `--without "gentle-border.shares=(0.2, 0.2)"`. With `--changed` only rows are printed whose verdict
 changes by that: NOT where the rule protects, held where it takes. `--set ground_tolerance=0.3`
-gives a parameter. `--picture FOLDER` draws the rows that fail.
+gives a parameter. `--picture FOLDER` draws the rows that fail. `--peers` runs other
+programs that are installed as well, with their defaults, and `--write` writes the shares of rows
+that come out right into results/plain.md and docs/comparison.md.
 """
 
 from __future__ import annotations
@@ -31,12 +33,12 @@ from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.tin.triangulation import Tin
 
-from . import tables, work
+from . import peers, plain_page, tables, work
 from .accuracy import method_name
-from .measure import Filter
+from .measure import Filter, GroundFilter
 from .rules import BASE, changed, pipeline_of, switched_off
 from .scenes.classes import HIGH_NOISE
-from .scenes.plain import KINDS, Plain, Row, rows
+from .scenes.plain import KINDS, PLACES, Plain, Row, rows
 
 # Least share in percent of the ground round a thing that is kept.
 _ROUND = 95.0
@@ -79,7 +81,7 @@ class Judge:
         self._true_heights: np.ndarray | None = None
         self._true_heights = self._heights(self._truth)
 
-    def ground(self, method: Filter) -> np.ndarray:
+    def ground(self, method: GroundFilter) -> np.ndarray:
         """Return the ground that a filter finds; none where it says that there is none."""
         try:
             return method.ground(self._cloud)
@@ -111,12 +113,18 @@ class Judge:
         return Tin(x[some], y[some], z[some]).interpolate(*self._places)
 
 
+def contestant(name: str, values: dict[str, object]) -> GroundFilter:
+    """Return a filter of ours or of somebody else by its name."""
+    others: dict[str, GroundFilter] = {peer.name: peer for peer in peers.installed()}
+    return others[name] if name in others else Filter(name, **values)
+
+
 def run(job: Job) -> dict[str, Verdict]:
     """Return the verdict of each method on a row."""
     judge, found = Judge({row.name: row for row in rows()}[job.name]), {}
     with switched_off(job.variant):
         for method in job.methods:
-            ground = judge.ground(Filter(method, **dict(job.values)))
+            ground = judge.ground(contestant(method, dict(job.values)))
             found[method] = judge.judged(ground)
             if job.folder and not found[method].held:
                 draw(judge.plain, ground, f"{job.name} {method}", job.folder)
@@ -164,6 +172,18 @@ def sums(found: dict[str, dict[str, Verdict]], methods: Sequence[str]) -> list[s
     return tables.table(("Kind", "must", "rows", *methods), table)
 
 
+def _peers(are_asked: bool) -> list[str]:
+    """Return the other programs that run with their defaults."""
+    return [peer.name for peer in peers.installed() if are_asked and peer.is_for_tiles]
+
+
+def is_whole(options: argparse.Namespace, chosen: Sequence[str]) -> bool:
+    """Return whether all is measured that the page is about."""
+    count = sum(row.place == PLACES[0] or not options.quick for row in rows())
+    usual = options.without == BASE and not options.set and options.method == list(METHODS)
+    return len(chosen) == count and usual
+
+
 def main(arguments: Sequence[str] | None = None) -> None:
     """Run the rows that the command line asks for."""
     parser = argparse.ArgumentParser(
@@ -178,6 +198,9 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser.add_argument("--without", default=BASE, metavar="RULE")
     parser.add_argument("--set", nargs="+", default=[], metavar="NAME=VALUE", help="parameters")
     parser.add_argument("--picture", type=Path, metavar="FOLDER", help="draw what fails")
+    parser.add_argument("--peers", action="store_true", help="other programs as well")
+    parser.add_argument("--quick", action="store_true", help="one place of the grid")
+    parser.add_argument("--write", action="store_true", help="write results/plain.md")
     parser.add_argument("--failed", action="store_true", help="print only rows that fail")
     parser.add_argument(
         "--changed", action="store_true", help="print only rows whose verdict is another --without"
@@ -185,12 +208,16 @@ def main(arguments: Sequence[str] | None = None) -> None:
     options = parser.parse_args(arguments)
     values = tuple((name, _value(text)) for name, text in (one.split("=") for one in options.set))
     chosen = [
-        row.name for row in rows() if row.kind.name in options.kind and options.only in row.name
+        row.name
+        for row in rows()
+        if row.kind.name in options.kind
+        and options.only in row.name
+        and (row.place == PLACES[0] or not options.quick)
     ]
-    jobs = [
-        Job(name, tuple(options.method), options.without, values, options.picture)
-        for name in chosen
-    ]
+    asked = [*options.method, *_peers(options.peers)]
+    if options.write and not is_whole(options, chosen):
+        parser.error("The page is about all rows and methods, as they run by default.")
+    jobs = [Job(name, tuple(asked), options.without, values, options.picture) for name in chosen]
     if options.without != BASE:
         usual = [pipeline_of(method) for method in options.method]
         if usual == [changed(pipeline, options.without) for pipeline in usual]:
@@ -210,7 +237,14 @@ def main(arguments: Sequence[str] | None = None) -> None:
                 for one in verdicts.values()
             )
             print(f"{job.name:46}", *cells, sep=" | ", flush=True)
-    print("", *sums(found, options.method), sep="\n")
+    print("", *sums(found, asked), sep="\n")
+    if options.write:
+        plain_page.write(
+            {
+                name: {who: one.held for who, one in verdicts.items()}
+                for name, verdicts in found.items()
+            }
+        )
     print(f"{time.perf_counter() - begun:.0f} s", file=sys.stderr)
 
 
