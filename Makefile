@@ -1,5 +1,5 @@
 # The set-up is all in tools/environment: it makes what is missing, below build/.
-.PHONY: help demo test test-all test-rest test-long lint test-qgis coverage docs translations package clean
+.PHONY: help demo test test-all test-rest test-long lint test-qgis coverage evidence docs translations package clean
 
 help:  ## list the targets
 	@sed -n 's/^\([a-z-]*\):.*## /  \1\t/p' Makefile | expand -t 14
@@ -37,6 +37,9 @@ package:  ## pack the last commit, with laspy, as dist/bare_earth-X.Y.Z.zip, to 
 
 coverage:  ## tell which lines no test runs, those of the plugin in the real QGIS
 	@tools/test coverage
+
+evidence:  ## measure the pages of benchmarks/results/ that are older than the code, and the tables made from them; PART=plain: a part
+	@tools/environment python -m benchmarks.evidence --run $(PART)
 
 clean:  ## remove what these made
 	rm -rf build dist demo-output bare_earth.egg-info

@@ -46,7 +46,7 @@ from bare_earth.algorithms.tin.surface import Surface
 from bare_earth.algorithms.tools.ground.looks import looks_of
 from bare_earth.algorithms.tools.review.places import Rasters, Review, places_of
 
-from . import data
+from . import data, marked
 from .clouds import classify_cloud
 from .measure import GROUND, Filter
 from .phases import shifted
@@ -76,6 +76,11 @@ _BEND = 0.1
 _PRIOR, _RIDGE = 0.15, 0.05
 # The spreads of several looks in metres at which factors are fitted.
 SPREADS = (0.0, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0)
+PAGE = Path(__file__).parent / "results" / "expected_error.md"
+_HELD_HEAD = (
+    "| Tile | of the squared error, % | of the cells, % | places in all |",
+    "|---|--:|--:|--:|",
+)
 LIMIT = 0.3  # metres from which an error is large
 
 
@@ -441,18 +446,26 @@ def main() -> None:
     parser.add_argument("--looks", action="store_true", help="with the spread of several looks")
     parser.add_argument("--places", action="store_true", help="only what places to review hold")
     parser.add_argument("--tiles", nargs="+", help="only these, by their names without ending")
+    parser.add_argument("--write", action="store_true", help="write results/expected_error.md")
     chosen = parser.parse_args()
     places = [path for path in tiles() if not chosen.tiles or path.stem in chosen.tiles]
     if chosen.places:
+        lines = list(_HELD_HEAD)
         for found in side_by_side(held, places):
             share, area = 100 * found.share, 100 * found.area
-            print(f"| {found.tile} | {share:.0f} | {area:.1f} | {found.places} |", flush=True)
+            lines.append(f"| {found.tile} | {share:.0f} | {area:.1f} | {found.places} |")
+            print(lines[-1], flush=True)
+        if chosen.write:
+            marked.fill(PAGE, "places", lines)
         return
     results = side_by_side(functools.partial(look, several=chosen.looks), places)
     seen = [one for some in results for one in some]
     expected = crossed(seen)
     scores = [score(one.error, values) for one, values in zip(seen, expected)]
-    print(table(seen, expected), by_kind(seen, expected), sep="\n\n")
+    blocks = {"tiles": table(seen, expected), "kinds": by_kind(seen, expected)}
+    print(*blocks.values(), sep="\n\n")
+    for name in blocks if chosen.write else ():
+        marked.fill(PAGE, name, blocks[name].splitlines())
     print(f"\nRMSE in relation to what is expected: {_middle([s.rmse for s in scores])}")
     over = np.array([s.over for s in scores])
     print(f"share over {LIMIT} m, expected and as it is: {over.mean(axis=0).round(4)}")
