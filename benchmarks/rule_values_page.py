@@ -75,6 +75,10 @@ def problems(values: Sequence[Value], page: Path = PAGE) -> list[str]:
     return found + [f"{owner}.{name} is gone, but not its row." for owner, name in told]
 
 
+def _rows(count: str) -> str:
+    return "" if count == "0" else f"{count} row" + "s" * (count != "1")
+
+
 def of_rules(page: Path = ABLATION) -> dict[str, tuple[str, str]]:
     """Return what each rule protects and takes by the page of the ablation, in the first of the
     methods that has it.
@@ -85,12 +89,9 @@ def of_rules(page: Path = ABLATION) -> dict[str, tuple[str, str]]:
         if len(cells) < 13 or cells[0] in found or not cells[-1].isdigit():
             continue
         name, _, _, isprs, worst, best, _, wrong, right, _, _, protects, takes = cells
-        losses = [f"{protects} rows", f"ISPRS {isprs}" * isprs.startswith("+"), worst, f"{wrong} m"]
-        gains = [f"{takes} rows", f"ISPRS {isprs}" * isprs.startswith("-"), best, f"{right} m"]
-        told = (
-            "; ".join(one for one in some if one.strip("- m") and one != "0 rows")
-            for some in (losses, gains)
-        )
+        losses = [_rows(protects), f"ISPRS {isprs}" * isprs.startswith("+"), worst, f"{wrong} m"]
+        gains = [_rows(takes), f"ISPRS {isprs}" * isprs.startswith("-"), best, f"{right} m"]
+        told = ("; ".join(one for one in some if one.strip("- m")) for some in (losses, gains))
         protected, taken = (text or "nothing" for text in told)
         found[name] = protected, taken
     return found
