@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from typing import Callable
+from typing import Callable, Dict
 
 import numpy as np
 
@@ -18,7 +18,7 @@ from ..core.points import Points
 from ..core.progress import SILENT, Progress
 from ..core.threads import in_threads
 from ..grids.morphology import within_square
-from .lattice_sample import TILE, LatticeSample
+from .lattice_sample import TILE, LatticeSample, TilePlace
 from .local_delaunay import WIDEST, LocalDelaunay, Queries
 from .surface import CellLattice, Surface
 
@@ -30,6 +30,8 @@ VERTICES_A_SIDE = 2
 _RIM = WIDEST
 # The same for vertices that are triangulated at first. Others are added if a circle holds any.
 _NARROW_RIM = 2
+# Which cells of some tiles are meant, bool (TILE, TILE), by row and column of the tile.
+_CellsOfTiles = Dict[TilePlace, np.ndarray]
 _A_LITTLE = 0.01  # rounding error of a vertex at the border of a tile, in lattice cells
 _ROUNDING = 1e-6  # rounding error of an anchor, as a share of a cell
 
@@ -220,20 +222,19 @@ class DenseSurface:
         cells: CellLattice | None = None,
     ) -> np.ndarray:
         """Return heights of the remaining queries, on a triangulation of the vertices near them."""
-        vertices = np.flatnonzero(self._are_vertices((x, y), _RIM))
-        meshed = self._are_vertices((x, y), _NARROW_RIM)[vertices]
+        near = _cells_of(self.thinned, x, y)
+        vertices = np.flatnonzero(self._are_vertices(near, _RIM))
+        meshed = self._are_vertices(near, _NARROW_RIM)[vertices]
         progress(0.15)
         surface = Surface(self._points.take(vertices), meshed)
         progress(0.2)
         return surface.heights(x, y, max_edge, progress.part(0.2, 1.0), cells)
 
-    def _are_vertices(
-        self, near: tuple[np.ndarray, np.ndarray] | None = None, rim: int = 0
-    ) -> np.ndarray:
-        """Return a mask (n,) of the vertices, or only of the vertices near some places."""
+    def _are_vertices(self, near: _CellsOfTiles | None = None, rim: int = 0) -> np.ndarray:
+        """Return a mask (n,) of the vertices, or only of the vertices near some cells."""
         is_vertex = np.zeros(self._points.count, dtype=bool)
         is_vertex[self.thinned.hull] = True
-        marked = None if near is None else _marked(self.thinned, *near, rim)
+        marked = None if near is None else _marked(near, rim)
         for place, tile in self.thinned.tiles.items():
             if marked is None:
                 is_vertex[tile.source] = True
@@ -242,18 +243,24 @@ class DenseSurface:
         return is_vertex
 
 
-def _marked(
-    thinned: LatticeSample, x: np.ndarray, y: np.ndarray, rim: int
-) -> dict[tuple[int, int], np.ndarray]:
-    """Return a mask (TILE * TILE,) of the cells near places for each tile that has any."""
-    marked: dict[tuple[int, int], np.ndarray] = {}
+def _cells_of(thinned: LatticeSample, x: np.ndarray, y: np.ndarray) -> _CellsOfTiles:
+    """Return a mask (TILE, TILE) of the cells with places for each tile that has any."""
+    found = {}
     for place, indices in thinned.by_tile(x, y):
         row, column = (
-            np.floor(thinned.cells(places[indices], axis)).astype(np.intp) - number * TILE + rim
+            np.floor(thinned.cells(places[indices], axis)).astype(np.intp) - number * TILE
             for axis, places, number in ((1, y, place[0]), (0, x, place[1]))
         )
-        near = np.zeros((TILE + 2 * rim,) * 2, dtype=np.uint8)
-        near[row, column] = 1
+        found[place] = np.zeros((TILE, TILE), dtype=bool)
+        found[place][row, column] = True
+    return found
+
+
+def _marked(cells: _CellsOfTiles, rim: int) -> dict[TilePlace, np.ndarray]:
+    """Return a mask (TILE * TILE,) of the cells near some cells for each tile that has any."""
+    marked: dict[TilePlace, np.ndarray] = {}
+    for place, held in cells.items():
+        near = np.pad(held.view(np.uint8), rim)
         near = within_square(np.maximum, near, rim)
         padded = np.zeros((3 * TILE,) * 2, dtype=bool)
         padded[TILE - rim : 2 * TILE + rim, TILE - rim : 2 * TILE + rim] = near
