@@ -1,4 +1,4 @@
-"""The widget of the fields for attributes of checkpoints, which can be columns of a text table."""
+"""The widget of the fields for attributes of layers, and for columns of a text table."""
 
 from __future__ import annotations
 
@@ -16,7 +16,8 @@ from .widgets import designer_widget, is_designer, kind
 class AttributeWidget:
     """Makes the widget of an attribute, with the names that are in the table or layer."""
 
-    # That of QGIS takes a text table for a layer, and tells that it could not be loaded.
+    # That of QGIS takes a text table for a layer, and tells that it could not be loaded. Where it
+    # is blank, QGIS 3.40 cannot save a batch.
 
     def __new__(
         cls, parameter: QgsProcessingParameterDefinition, dialog: QWidget, *_: object

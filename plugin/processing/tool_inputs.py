@@ -150,7 +150,7 @@ def add_input(algorithm: BareEarthAlgorithm, declared: Input) -> None:
     if declared.made_as:
         widget = {"widget_wrapper": {"class": _RASTER_WIDGET}} if declared.kind == "raster" else {}
         metadata = {**metadata, **widget, MADE_AS: declared.made_as}
-    elif declared.kind == "attribute" and _ATTRIBUTES[name][1] == "CHECKPOINTS":
+    elif declared.kind == "attribute":
         metadata = {**metadata, "widget_wrapper": {"class": _ATTRIBUTE_WIDGET}}
     field.setMetadata(metadata)
     algorithm.addParameter(field, with_note(declared.help, helps.get(declared.kind, "")))

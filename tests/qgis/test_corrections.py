@@ -4,7 +4,7 @@ import laspy
 import numpy as np
 import pytest
 from qgis.core import QgsFeature, QgsGeometry, QgsProcessingException, QgsVectorLayer
-from support import Log
+from support import ALGORITHM, Log, remove
 
 # Of each, the field of its output, and its name there.
 ALGORITHMS = {
@@ -94,3 +94,17 @@ def test_polygons_lie_in_any_crs(scene, tmp_path):
     classes = np.asarray(laspy.read(out).classification)
     assert np.mean(classes[in_strip] == 9) > 0.99
     assert np.mean(classes[~scene.ground] == 2) > 0.99
+
+
+def test_a_blank_attribute_is_a_value_that_a_batch_can_save(registry, context):
+    import json
+
+    from processing.gui.BatchAlgorithmDialog import BatchAlgorithmDialog
+
+    dialog = BatchAlgorithmDialog(registry.createAlgorithmById(ALGORITHM))
+    panel = dialog.mainWidget()
+    wrapper = panel.wrappers[0][panel.parameter_to_column["CORRECTIONS_FIELD"]]
+    assert json.dumps(wrapper.parameterValue()) == '"class"'
+    wrapper.setParameterValue(None, context)
+    assert json.dumps(wrapper.parameterValue()) == "null"
+    remove(dialog)
