@@ -215,7 +215,7 @@ def run(part: Part) -> bool:
             print(f"{part.name} failed with {done.returncode}; see {log}.", flush=True)
             return False
     write_stamp(part.path, begun)
-    manual.write()
+    manual.write(with_speeds=part.path == manual.PERFORMANCE)
     print(f"{part.name}: {part.path.name} is written.", flush=True)
     return True
 

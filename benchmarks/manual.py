@@ -10,6 +10,7 @@ _ROOT = Path(__file__).parents[1]
 ACCURACY = _ROOT / "benchmarks" / "results" / "accuracy.md"
 MANUAL = _ROOT / "docs" / "how-accurate.md"
 README = _ROOT / "README.md"
+PERFORMANCE = ACCURACY.with_name("performance.md")
 # Filters as the manual calls them, and as the page does.
 _FILTERS = {
     "**TIN densification**": "**TIN densification**",
@@ -21,13 +22,36 @@ _FILTERS = {
     "CSF, cloth of 1 m": "CSF",
     "Whitebox slope filter, its defaults": "Whitebox slope filter",
 }
-# Multiples of reading and writing the forest, which results/performance.md does not state as they
-# are now: it is older than these.
-_TIMES = {
-    "**TIN densification**": "2.75", "**Grid minimum**": "2.4", "**Slope filter**": "2.2",
-    "pysmrf, its defaults": "4.6", "CSF, cloth of 1 m": "6.0, its defaults",
-    "Whitebox slope filter, its defaults": "33, radius 2 m",
-}  # fmt: skip
+# What the manual tells of speed: its label, that of results/performance.md, that of the README.
+_SPEEDS = (
+    ("**TIN densification**", "**TIN densification**", "**TIN densification**"),
+    ("**Grid minimum**", "**Grid minimum**", "**Grid minimum**"),
+    ("**Slope filter**", "**Slope filter**", "**Slope filter**"),
+    (
+        "**TIN densification with terrain model, 1 m**",
+        "**TIN densification and DTM, 1 m**",
+        "",
+    ),
+    (
+        "**the same, hillshade and heights of all points**",
+        "**TIN densification, DTM, hillshade and heights**",
+        "",
+    ),
+    (
+        "**Terrain model, surface model and canopy height of a classified file**",
+        "**DTM, DSM and canopy height**",
+        "",
+    ),
+    ("**Heights above ground of a classified file**", "**Heights above ground**", ""),
+    ("pysmrf, its defaults", "pysmrf", "pysmrf, its defaults"),
+    ("CSF, its defaults", "CSF", "CSF, cloth of 1 m"),
+    (
+        "Whitebox slope filter, radius 2 m",
+        "Whitebox slope filter, 2 m",
+        "Whitebox slope filter, its defaults",
+    ),
+)
+_TIME = "Time, as a multiple of reading and writing"
 # Land, points a square metre, and the tiles.
 _LANDS = (
     ("Farmland with ditches and dikes", "3.6", ("nrw_rural",)),
@@ -61,7 +85,7 @@ def read(page: Path) -> Found:
     found: Found = {}
     head: list[str] = []
     for line in page.read_text("utf-8").splitlines():
-        cells = [cell.strip() for cell in line.strip().strip("|").split(" | ")]
+        cells = _cells(line)
         if not line.startswith("|"):
             head = []
         elif not head:
@@ -71,6 +95,10 @@ def read(page: Path) -> Found:
         elif not line.startswith(("| -", "|-")):
             found[head[0]][cells[0]] = dict(zip(head[1:], cells[1:]))
     return found
+
+
+def _cells(line: str) -> list[str]:
+    return [cell.strip() for cell in line.strip().strip("|").split(" | ")]
 
 
 def _mean(found: Found, title: str, name: str, quoted: str = "") -> str:
@@ -95,12 +123,15 @@ def samples(found: Found) -> list[str]:
 
 
 def in_short(found: Found) -> list[str]:
-    """Return the table of the README."""
+    """Return the table of the README, with the times that the manual states."""
+    rows = map(_cells, marked.held(MANUAL, "speed"))
+    times = {cells[0]: cells[1] for cells in rows if len(cells) > 1}
+    told = {short: times[label] for label, _, short in _SPEEDS if short and label in times}
     lines = []
     for label, name in _FILTERS.items():
         total = _mean(found, "Total error, %", name, "total error, %").split(" ")[0]
         kappa = _mean(found, "Kappa, %", name, "kappa, %").split(" ")[0]
-        lines.append([label, f"{total} %", f"{float(kappa):.1f} %", _TIMES.get(label, "")])
+        lines.append([label, f"{total} %", f"{float(kappa):.1f} %", told.get(label, "")])
     return tables.table(("", "total error", "kappa", "time"), lines)
 
 
@@ -129,8 +160,22 @@ def lands(found: Found) -> list[str]:
     )
 
 
-def write() -> None:
-    """Write the tables."""
+def speeds(page: Path = PERFORMANCE) -> list[str]:
+    """Return the table of the manual on speed, of a page that was measured."""
+    found = read(page)[_TIME]
+    lines = [
+        [label, *(found[name][tile].split(" ")[0] for tile in ("hawaii_forest", "nrw_rural"))]
+        for label, name, _ in _SPEEDS
+    ]
+    return tables.table(("", "Forest", "Farmland"), lines)
+
+
+def write(with_speeds: bool = False) -> None:
+    """Write the tables; those of speed when it was measured, since the manual's may be newer than
+    the page.
+    """
+    if with_speeds:
+        marked.fill(MANUAL, "speed", speeds())
     found = read(ACCURACY)
     for page, name, lines in made(found):
         marked.fill(page, name, lines)

@@ -29,13 +29,22 @@ def test_tables_of_the_manual_are_those_of_the_pages():
         )
 
 
+def test_the_table_of_speed_is_that_of_the_page_that_was_measured():
+    lines = manual.speeds()
+    held = [line.split("|")[1].strip() for line in marked.held(manual.MANUAL, "speed")[2:]]
+    assert [line.split("|")[1].strip() for line in lines[2:]] == held
+    page = manual.PERFORMANCE.read_text("utf-8")
+    figure = lines[2].split("|")[2].strip()
+    assert f"{figure} (" in page.split("| **TIN densification** ")[1].splitlines()[0]
+
+
 @pytest.fixture
 def parts(tmp_path, monkeypatch):
     """Two parts whose command makes a page, and one whose command fails."""
     monkeypatch.setattr(evidence, "RESULTS", tmp_path)
     monkeypatch.setattr(evidence, "LOGS", tmp_path / "logs")
     monkeypatch.setattr(evidence, "fetch", lambda: None)
-    monkeypatch.setattr(manual, "write", lambda: None)
+    monkeypatch.setattr(manual, "write", lambda with_speeds: None)
     found = tuple(
         Part(name, ("core",), (command,))
         for name, command in (("one", "data list"), ("bad", "data nothing"), ("two", "data list"))
