@@ -152,5 +152,9 @@ def write(values: Sequence[Value], figures: dict[str, Any], page: Path = PAGE) -
     lines = [row.line() for row in rows(values, figures, read(page))]
     head = f"| {' | '.join(_HEAD)} |"
     places = {place for one in figures.values() for found in one.values() for place in found}
-    told = [f"Measured at {len(places)} places: {', '.join(sorted(places))}.", ""] if places else []
-    marked.fill(page, NAME, [*told, head, "|" + "---|" * len(_HEAD), *lines])
+    told = f"Measured at {len(places)} places: {', '.join(sorted(places))}."
+    before = [line for line in marked.held(page, NAME)[:1] if line[:1] != "|"]
+    # Some values, measured elsewhere, do not tell where the others were.
+    is_whole = 2 * len(figures) > len(values)
+    first = [told] if is_whole else before
+    marked.fill(page, NAME, [*first, *[""] * len(first), head, "|" + "---|" * len(_HEAD), *lines])
