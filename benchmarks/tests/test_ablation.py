@@ -107,6 +107,7 @@ def test_what_was_measured_is_kept(kept, monkeypatch, capsys):
     assert without_opening["total"] > base["total"] and without_rocks == base
 
 
+@pytest.mark.rest
 def test_plain_things_that_a_rule_protects_and_takes_are_counted(kept, monkeypatch, capsys):
     some = [kind for kind in ablation.KINDS if kind.name in ("bowl", "low-clumps")]
     chosen = [

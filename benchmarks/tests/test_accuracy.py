@@ -272,6 +272,7 @@ def test_sensitivity_moves_defaults_that_are_chosen(folder):
     assert "min_neighbours" not in [row.declaration.name for row in rows]
 
 
+@pytest.mark.rest
 def test_error_map_shows_both_errors(folder):
     from matplotlib.image import imread
 

@@ -57,6 +57,7 @@ def test_points_on_water_do_not_count():
     assert np.isnan(score.dtm_rmse)
 
 
+@pytest.mark.rest
 def test_a_scene_is_remembered_whole(tmp_path, monkeypatch):
     monkeypatch.setattr(cache, "FOLDER", tmp_path)
     first, model = generated.remembered_scene("drone_50", 3)

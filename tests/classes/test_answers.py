@@ -58,6 +58,7 @@ def _ground(path, box):
     return np.asarray(las.classification)[inside] == 2
 
 
+@pytest.mark.rest
 def test_right_and_skip_change_nothing(cloud, tmp_path):
     plain, answered = tmp_path / "plain.laz", tmp_path / "answered.laz"
     classify(cloud, plain, **HOW)
@@ -72,6 +73,7 @@ def test_right_and_skip_change_nothing(cloud, tmp_path):
     assert any("1 polygon of the corrections has no class" in text for text in heard.infos)
 
 
+@pytest.mark.rest
 def test_ground_continues_the_ground_and_takes_no_roof(cloud, tmp_path):
     plain, answered = tmp_path / "plain.laz", tmp_path / "answered.laz"
     classify(cloud, plain, **HOW)

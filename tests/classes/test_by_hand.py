@@ -212,6 +212,7 @@ def test_classes_changed_in_the_file_hold_run_after_run(method, edited, tmp_path
     np.testing.assert_array_equal(classes_of(disk), classes_of(twice))
 
 
+@pytest.mark.rest
 def test_a_run_remembers_its_classes_and_nothing_else_changes(edited, tmp_path):
     before, out = laspy.read(edited), tmp_path / "out.copc.laz"
     dimension = np.asarray(before["BareEarthClass"])
@@ -239,6 +240,7 @@ def test_points_that_nobody_changed_are_judged_anew(cloud, tmp_path):
     np.testing.assert_array_equal(classes_of(out), classes_of(plain))
 
 
+@pytest.mark.rest
 def test_a_point_set_to_never_classified_is_judged_anew(edited, tmp_path):
     give_class(edited, 0, lambda x, y: _within(HALL, x / 100, y / 100))
     out = tmp_path / "out.laz"
@@ -281,6 +283,7 @@ def test_changes_in_files_hold_in_tiles_and_with_heights(edited, integers, tmp_p
     }
 
 
+@pytest.mark.rest
 def test_key_points_are_no_changes_by_hand(edited, tmp_path):
     marked, out = tmp_path / "marked.laz", tmp_path / "out.laz"
     key_points(edited, marked, mark_as="class")

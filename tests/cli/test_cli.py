@@ -87,6 +87,7 @@ def test_what_steers_a_terminal_is_shown_as_text(las, tmp_path, capsys):
     assert told.err.splitlines()[-1].endswith("\\xff\\x07.las does not exist. Check the path.")
 
 
+@pytest.mark.rest
 def test_done_is_0_and_quiet_where_no_terminal_listens(file, out, capsys):
     assert run("classify", file, out) == 0
     assert set(np.unique(classes_of(out))) == {1, 2}
@@ -96,12 +97,14 @@ def test_done_is_0_and_quiet_where_no_terminal_listens(file, out, capsys):
     assert told.err.count("\n") == 1 and told.err.startswith("Warning: in.las does not say")
 
 
+@pytest.mark.rest
 def test_verbose_tells_what_is_done(file, out, capsys):
     assert run("classify", file, out, "--verbose") == 0
     told = capsys.readouterr()
     assert "points take part." in told.err and "points are ground" in told.out
 
 
+@pytest.mark.rest
 def test_a_terminal_gets_a_bar_and_messages(file, out, capsys, monkeypatch):
     pytest.importorskip("tqdm")
     monkeypatch.setattr(sys, "stderr", FakeTerminal(sys.stderr))
@@ -204,6 +207,7 @@ def test_as_a_command(words, code):
 # What it says
 
 
+@pytest.mark.rest
 def test_json_is_the_counts_and_nothing_else(file, out, scene, capsys):
     assert run("classify", file, out, "--json") == 0
     counts = json.loads(capsys.readouterr().out)
@@ -224,6 +228,7 @@ def test_json_is_the_counts_and_nothing_else(file, out, scene, capsys):
     }
 
 
+@pytest.mark.rest
 def test_info_and_assess_speak_text_and_json(file, out, capsys):
     assert run("classify", file, out) == 0
     capsys.readouterr()

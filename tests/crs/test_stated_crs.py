@@ -57,6 +57,7 @@ def test_text_needs_no_library(monkeypatch):
         stated_wkt("EPSG:2230")
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize(
     "text", ["EPSG:99999", "Rome", "EPSG:5703", "https://epsg.io/2230.wkt", "/vsicurl/x", "x" * 999]
 )

@@ -112,6 +112,7 @@ def test_a_point_that_is_there_twice_changes_no_label(method, survey, which):
     assert np.array_equal(found, np.append(ground, ground[twice]))
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize("method", quick(METHODS, "grid-minimum"))
 @SETTINGS
 @given(survey=surveys(), which=st.floats(0.0, 0.999), up=st.floats(1.0, 50.0))

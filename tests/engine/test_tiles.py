@@ -228,6 +228,7 @@ def test_copc_files_of_which_only_parts_are_read_give_the_same(tmp_path, out):
 # What is written
 
 
+@pytest.mark.rest
 def test_the_results_are_listed_in_a_virtual_point_cloud(six, out, tmp_path):
     summary = classify(six, out)
     assert [path.name for path in read_vpc(out / "classified.vpc")] == sorted(
@@ -475,6 +476,7 @@ def test_a_survey_of_which_nothing_can_be_classified_fails(tmp_path, out):
     assert not (out / "classified.vpc").exists() and not (out / "a.laz").exists()
 
 
+@pytest.mark.rest
 def test_points_outside_of_the_extent_in_the_header_are_not_lost_silently(six, out):
     with open(six / "2.laz", "r+b") as file:
         file.seek(179)

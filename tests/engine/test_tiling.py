@@ -293,6 +293,7 @@ def test_the_last_jobs_get_the_threads_of_those_that_ended():
     assert found[4] >= 2 and found[5] >= 2
 
 
+@pytest.mark.rest
 def test_blocks_that_are_alone_may_use_all_threads(monkeypatch):
     seen = []
 
@@ -310,6 +311,7 @@ def test_blocks_that_are_alone_may_use_all_threads(monkeypatch):
     assert [count for count, _ in seen] == [4] * 6 and len({ident for _, ident in seen}) == 1
 
 
+@pytest.mark.rest
 def test_as_many_blocks_as_threads_use_one_each(monkeypatch):
     numbers, seen, together = itertools.count(), [], threading.Barrier(4)
 

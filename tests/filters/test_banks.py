@@ -74,6 +74,7 @@ def test_walls_go(method, width):
     assert _kept(method, x, y, z, raised > 0.0) < 0.05
 
 
+@pytest.mark.rest(but="slope")
 @pytest.mark.parametrize("method", METHODS)
 def test_strips_of_long_grass_go(method):
     # As below a fence: half a metre wide.

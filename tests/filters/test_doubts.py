@@ -88,6 +88,7 @@ def test_hardly_any_ground_is_told():
     assert LITTLE in warning and "2 %" in warning
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize("name", quick(METHODS, "grid-minimum"))
 def test_many_low_outliers_are_told(name):
     parameters = METHODS[name].parameters()

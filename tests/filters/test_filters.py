@@ -247,7 +247,7 @@ def test_breaks_stay_where_points_are_dense(method, kind, density, request):
 SOME_SAMPLES = ("samp11", "samp31", "samp54")
 
 
-@pytest.mark.rest(but="tin-densification")
+@pytest.mark.rest
 @pytest.mark.skipif(not data.isprs(), reason="the ISPRS samples are not here")
 @pytest.mark.parametrize(
     ("method", "samples", "most_error", "least_kappa"),

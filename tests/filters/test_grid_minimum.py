@@ -17,6 +17,7 @@ def flat(density: float = 8.0, size: float = 80.0) -> Points:
     return Points(x, y, surveyed(x, y, np.full(len(x), 20.0)))
 
 
+@pytest.mark.rest(but="12.0")
 @pytest.mark.parametrize("width", [4.0, 12.0, 30.0])
 def test_a_roof_goes_with_the_rim_that_bounds_it(width):
     points = flat()

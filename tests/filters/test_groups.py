@@ -55,6 +55,7 @@ def test_no_low_group_is_ground_and_all_are_low_noise(kind, method):
     assert (found[scene.ground] == 2).mean() > 0.99
 
 
+@pytest.mark.rest(but="1.0")
 @pytest.mark.parametrize("density", [1.0, 50.0])
 def test_low_groups_are_found_at_any_density(density):
     scene = make("low_groups_meadow", seed=9, density=density, size=60.0)
@@ -155,6 +156,7 @@ def test_land_behind_a_dam_is_not_below_water():
         assert not BelowWater().find(points, lowest, 1.0, Cells.over(points, size)).any()
 
 
+@pytest.mark.rest(but="grid-minimum")
 @pytest.mark.parametrize("method", METHODS)
 def test_wide_groups_below_streets_are_low_noise(method):
     land, random = even(side=90.0), np.random.default_rng(4)
@@ -179,6 +181,7 @@ def test_a_shaft_and_a_pond_are_no_wide_groups():
         assert not WideLowGroups().find(points, (cells, cells.lowest_points(points))).any()
 
 
+@pytest.mark.rest
 def test_known_ground_is_never_left_out():
     points = joined(even(), square(20.0, 20.0, 47.0))
     known = np.zeros(points.count, dtype=bool)

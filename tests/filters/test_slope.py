@@ -234,6 +234,7 @@ def test_one_stray_point_does_not_stop_the_classic_filter():
     assert np.array_equal(classify(points, parameters), by_brute_force(points, parameters))
 
 
+@pytest.mark.rest
 def test_presets_by_terrain_give_what_is_left_empty_and_city_sees_a_large_hall():
     x, y = np.random.default_rng(0).uniform(0.0, 160.0, (2, 30_000))
     hall = (np.abs(x - 80.0) < 40.0) & (np.abs(y - 80.0) < 35.0)

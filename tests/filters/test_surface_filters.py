@@ -37,6 +37,7 @@ def test_terraces_between_walls_stay(name):
     assert classify(name, terraces()).mean() > 0.95
 
 
+@pytest.mark.rest(but="slope")
 def test_the_few_points_that_see_the_ground_under_a_canopy_are_ground(name):
     points, ground = dense_canopy()
     found = classify(name, points)

@@ -24,6 +24,7 @@ def test_a_terrace_with_a_bank_too_steep_for_the_seeds_is_regained_by_densificat
     assert error(classify(points, TinDensification()), np.ones(points.count, dtype=bool)) < 2.0
 
 
+@pytest.mark.rest
 def test_a_bush_in_a_gap_below_trees_is_not_ground_and_a_mound_is():
     x, y = scatter()
     around = np.hypot(x - 40.0, y - 40.0) > 8.0
@@ -37,6 +38,7 @@ def test_a_bush_in_a_gap_below_trees_is_not_ground_and_a_mound_is():
         assert (found[-3:] == expected).all()
 
 
+@pytest.mark.rest
 def test_a_building_wider_than_the_maximum_building_size_is_taken_for_a_hill():
     x, y = scatter(density=2.0)
     roof = (np.abs(x - 40.0) < 12.0) & (np.abs(y - 40.0) < 12.0)
@@ -53,6 +55,7 @@ def test_a_smaller_iteration_distance_never_adds_ground():
     assert near.sum() <= far.sum()
 
 
+@pytest.mark.rest
 def test_the_log_says_which_values_the_preset_chose_and_they_give_the_same_again():
     class Heard(Progress):
         def __init__(self):
@@ -87,6 +90,7 @@ def test_automatic_looks_for_halls_larger_than_usual():
     assert classify(points, TinDensification(max_building_size=30.0))[hall].mean() > 0.9
 
 
+@pytest.mark.rest
 def test_known_ground_is_a_seed_where_the_grid_sees_an_object():
     x, y = scatter(density=6.0)
     mound = np.hypot(x - 40.0, y - 40.0) < 8.0

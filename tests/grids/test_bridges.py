@@ -257,6 +257,7 @@ def test_a_classic_preset_knows_no_bridges_unless_told_to_find_them(method):
     assert np.count_nonzero(found & deck) < 0.3 * np.count_nonzero(kept & deck)
 
 
+@pytest.mark.rest
 def test_known_ground_and_low_outliers_stay_what_they_are():
     points, deck = SCENES["underpass"]
     low = np.flatnonzero(~deck)[::2000]

@@ -214,6 +214,7 @@ def test_several_looks_at_many_files_equal_those_at_one(looked_at, several, tmp_
     np.testing.assert_array_equal(heights_of(error), heights_of(several[1]))
 
 
+@pytest.mark.rest
 def test_several_looks_need_an_expected_error(looked_at, tmp_path):
     with pytest.raises(BareEarthError, match="Make its raster, or look once"):
         bare_earth.classify(looked_at[0], tmp_path / "a.laz", looks=5)

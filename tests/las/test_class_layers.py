@@ -88,6 +88,7 @@ def test_classes_that_are_all_the_same_take_next_to_nothing(las):
     assert (las.split(target).records[:, 16] == 2).all()
 
 
+@pytest.mark.rest
 def test_chunks_of_any_size_stay_as_they_are(las, monkeypatch):
     """A COPC file has a chunk for each node, most of them small."""
     monkeypatch.setattr(module, "_POINTS_A_GROUP", 6_000)

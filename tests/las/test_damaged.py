@@ -131,6 +131,7 @@ def test_more_points_than_a_file_can_hold(make):
     refused(*(damage(make(suffix, 6), "Q", (247, count)) for suffix, count in files))
 
 
+@pytest.mark.rest
 def test_more_points_than_chunks_of_any_size_can_hold(make):
     source = make(".las", 6)
     path = source.with_name("in.copc.laz")
@@ -157,6 +158,7 @@ def test_more_records_than_there_are(make):
     assert said(*paths) == ["read"] * 8
 
 
+@pytest.mark.rest
 def test_a_compression_that_is_none(make):
     paths = []
     for at, value in ((0, 1), (0, 9), (32, 0), (32, 60_000), (36, 7)):

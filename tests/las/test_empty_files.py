@@ -87,6 +87,7 @@ def test_tools_that_read_many_files_leave_out_those_without_points(tiles, tmp_pa
         bare_earth.quality([tiles / "b.laz", tiles / "c.las"])
 
 
+@pytest.mark.rest
 def test_a_delivery_holds_files_without_points(tiles, tmp_path):
     assert main(["deliver", "survey", str(tiles), str(tmp_path / "out"), *FAST_WORDS]) == 0
     (copied,) = (tmp_path / "out").rglob("b.laz")

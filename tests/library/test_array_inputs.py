@@ -56,6 +56,7 @@ def test_records_of_laspy_are_points(las, tmp_path):
         arrays.ground(las.points, las.y)
 
 
+@pytest.mark.rest
 def test_columns_of_a_table_are_arrays(las):
     table = with_coordinates(table_of(las), las)
     found = arrays.classify(table.x, table.y, table.z, return_number=las.return_number[:],
@@ -131,6 +132,7 @@ def shapes_of(square):
     }
 
 
+@pytest.mark.rest
 def test_geometries_of_any_library_are_areas(las, tmp_path):
     raw = laspy.LasData(las.header, las.points.copy())
     raw.classification[:] = 1
@@ -335,6 +337,7 @@ def test_undeclared_no_data_in_memory_is_told(las, dtm):
     assert f"The raster raster has {count} cells of -9999, far" in heard.warnings[0]
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize(
     ("change", "words"),
     [

@@ -110,6 +110,7 @@ def test_feet_and_codes_of_a_crs_are_understood(files):
         arrays.ground(x / 1e5, y / 1e6, z, crs=4326)
 
 
+@pytest.mark.rest
 def test_numbers_without_end_are_rounded_to_less_than_matters(files):
     x, y, z = (np.asarray(laspy.read(str(files[0]))[axis]) for axis in "xyz")
     shift = np.random.default_rng(1).uniform(-1e-7, 1e-7, (3, len(x)))

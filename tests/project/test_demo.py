@@ -41,6 +41,7 @@ def test_every_kind_of_thing_is_there(survey):
     assert 0.4 < (count[2] + count[9]) / sum(count.values()) < 0.85
 
 
+@pytest.mark.rest
 def test_the_truth_is_true(survey):
     x, y, z = survey.points
     above, kind = z - survey.terrain(x, y), survey.classes

@@ -123,6 +123,7 @@ def test_the_zip_holds_one_folder_with_what_qgis_needs(names, package):
     assert names[0] == "bare_earth/"
 
 
+@pytest.mark.rest
 def test_the_zip_holds_nothing_else(names):
     top = {name.split("/")[1] for name in names if name.count("/") > 1}
     assert top <= {"algorithms", "plugin", "help", "packages"}
@@ -134,6 +135,7 @@ def test_the_zip_holds_nothing_else(names):
         assert not re.search(r"\.(pyc|so|dll|dylib|exe|bat|sh|ui~)$", name), name
 
 
+@pytest.mark.rest
 def test_laspy_travels_in_the_version_that_is_pinned_with_its_licence(names, package):
     pinned = re.search(r"laspy==([\d.]+)", (ROOT / "bundled.txt").read_text()).group(1)
     folder = f"bare_earth/packages/laspy-{pinned}.dist-info"
@@ -146,6 +148,7 @@ def test_laspy_travels_in_the_version_that_is_pinned_with_its_licence(names, pac
     assert [line for line in needs if "extra ==" not in line] == ["Requires-Dist: numpy"]
 
 
+@pytest.mark.rest
 def test_the_help_is_whole_and_needs_nothing_else(names, package, metadata):
     archive, pages = zipfile.ZipFile(package[0]), {}
     for name in names:
@@ -169,6 +172,7 @@ def test_the_help_is_whole_and_needs_nothing_else(names, package, metadata):
     assert pages["terrain-model.html"].count("<table>") >= 3
 
 
+@pytest.mark.rest
 def test_the_links_of_the_readme_in_the_zip_lead_somewhere(names, package, metadata):
     archive = zipfile.ZipFile(package[0])
     text = archive.read("bare_earth/README.md").decode()
@@ -197,11 +201,13 @@ def test_addresses_that_are_to_be_set_stand_in_one_place(metadata):
                 assert metadata[key] not in text, (name, key)
 
 
+@pytest.mark.rest
 @pytest.mark.long
 def test_the_zip_has_the_same_bytes_each_time(package, tmp_path):
     assert make_package(tmp_path)[0].read_bytes() == package[0].read_bytes()
 
 
+@pytest.mark.rest
 def test_what_is_to_be_set_before_publishing_is_told(package, metadata):
     file, said = package
     assert file.name == f"bare_earth-{metadata['version']}.zip"

@@ -125,6 +125,7 @@ def test_the_same_grid_from_disk(source, tmp_path):
         assert np.array_equal(much[name].read(1), little[name].read(1))
 
 
+@pytest.mark.rest
 def test_constraints_lie_where_they_are_on_any_grid(source, tmp_path):
     west, south, width = 500_040.0, 5_700_040.0, 49.0
     east, north = west + width, south + width
@@ -187,6 +188,7 @@ def test_points_without_crs_are_taken_to_be_in_that_of_the_raster(source, tmp_pa
     assert "do not say their CRS" in words and "with --crs" in words
 
 
+@pytest.mark.rest
 def test_an_extent_cuts_the_usual_cells(source, usual, tmp_path):
     box = 500_020.5, 5_699_990.2, 500_080.0, 5_700_050.7
     cut_out = made(tmp_path / "cut", source, "--crs", CRS, "--raster-extent", *box)

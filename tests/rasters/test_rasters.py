@@ -102,6 +102,7 @@ def test_a_terrain_model_in_blocks_is_that_of_one_tin(small_blocks, tmp_path, na
     assert np.nanmax(wrong) < 1.0
 
 
+@pytest.mark.rest
 def test_gaps_wider_than_the_longest_edge_stay_open(small_blocks, tmp_path):
     found, x, y = _made(CLOUDS["lake"], tmp_path, max_edge=30.0)
     assert np.isnan(found[_is_lake(x, y, -20.0)]).all()
@@ -261,6 +262,7 @@ def test_the_expected_error_is_large_across_gaps_and_small_where_ground_is_dense
     assert np.nanmin(sure) >= 0.0 and np.nanmax(sure) <= 1.0
 
 
+@pytest.mark.rest
 def test_the_expected_error_has_no_data_where_the_terrain_has_none(tmp_path):
     along, off = np.mgrid[0:200.0, 0:60.0].reshape(2, -1)
     stripe = _cloud((along + off) / 2, (along - off) / 2, np.zeros(len(along)))

@@ -105,6 +105,7 @@ def test_reliefs_and_canopy_of_rasters_with_empty_land_are_those_of_the_pieces(p
     assert cells < 30_000_000  # of 180 million in each raster
 
 
+@pytest.mark.rest
 def test_contour_lines_of_a_raster_with_empty_land_are_those_of_the_pieces(pieces):
     def make(folder, made):
         target = folder / "lines.geojson"

@@ -107,6 +107,7 @@ def drawn(source, folder, **how):
     return {name: cells(folder / f"{name}.tif") for name in PICTURES}
 
 
+@pytest.mark.rest
 def test_the_terrain_model_is_the_same_and_the_pictures_are_smoother(tmp_path):
     source = write(tmp_path / "in.laz")
     smooth = drawn(source, tmp_path / "a")

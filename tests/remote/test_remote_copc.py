@@ -89,6 +89,7 @@ def test_all_of_a_file_keeps_every_chunk(server, tmp_path, content):
     assert open_las(target).chunk_table == open_las(source).chunk_table
 
 
+@pytest.mark.rest
 def test_a_resolution_takes_the_upper_levels(server, tmp_path, content):
     source, target = tmp_path / "whole.copc.laz", tmp_path / "part.copc.laz"
     source.write_bytes(content)
@@ -235,6 +236,7 @@ def test_a_page_that_would_be_huge_is_not_asked_for(server, tmp_path, content, m
         bare_earth.fetch(server.add("whole.copc.laz", content), tmp_path / "part.laz")
 
 
+@pytest.mark.rest(but="0.2")
 @pytest.mark.parametrize("share", [0.0, 0.2, 0.75])
 def test_a_cancel_leaves_no_file_and_the_next_run_goes_on(
     server, tmp_path, content, share, monkeypatch

@@ -138,6 +138,7 @@ def test_bad_tiles_are_asked_for_again_or_one_sentence(server, tmp_path, kind, f
         assert np.allclose(table_of(target), points, atol=1e-6)
 
 
+@pytest.mark.rest(but="True")
 @pytest.mark.parametrize("states_unit", [False, True])
 def test_web_mercator_is_kept_with_a_warning(server, tmp_path, states_unit):
     heights = 'VERT_CS["h",VERT_DATUM["d",2005],UNIT["metre",1]]'
@@ -149,6 +150,7 @@ def test_web_mercator_is_kept_with_a_warning(server, tmp_path, states_unit):
     assert np.allclose(table_of(tmp_path / "part.laz"), points, atol=1e-6)
 
 
+@pytest.mark.rest(but="copc.laz")
 @pytest.mark.parametrize("ending", ["laz", "copc.laz"])
 def test_web_mercator_becomes_utm_and_heights_metres(server, tmp_path, ending):
     pyproj = pytest.importorskip("pyproj")

@@ -68,6 +68,7 @@ def cached(tmp_path):
     return sorted((tmp_path / "cache").rglob("*.laz"))
 
 
+@pytest.mark.rest
 def test_a_part_gives_the_labels_of_the_whole_file(server, tiles, tmp_path):
     here, remote = tmp_path / "here.laz", tmp_path / "remote.laz"
     bare_earth.classify(tiles[0], here, extent=BOX, **NEAR)
@@ -325,6 +326,7 @@ def test_a_plain_file_obeys_the_limit_and_the_area(server, tmp_path):
         bare_earth.fetch(address, tmp_path / "a.laz")
 
 
+@pytest.mark.rest(but="10-cut")
 @pytest.mark.parametrize("fault", ["cut", "short", "no ranges"])
 @pytest.mark.parametrize("every", [1, 10])
 def test_a_plain_file_is_whole_or_one_sentence(server, tmp_path, fault, every, monkeypatch):
@@ -384,6 +386,7 @@ def test_web_mercator_is_refused_before_it_is_downloaded(
     assert [path for path in here if not path.exists()] == [] == cached(tmp_path)
 
 
+@pytest.mark.rest
 def test_a_file_in_web_mercator_is_described(server, mercator, tmp_path):
     code, text, _ = said("info", add(server, mercator), "--json")
     assert code == 0 and json.loads(text)["point_count"] == 20_000
@@ -416,6 +419,7 @@ def test_every_command_with_addresses_is_tried():
     assert {*COMMANDS, "info", "assess", "clip", "clear-cache"} == with_cache
 
 
+@pytest.mark.rest
 def test_a_moved_area_needs_only_what_is_not_here(server, tiles, tmp_path, monkeypatch):
     monkeypatch.setattr(files, "_FIRST", 2_000)
     monkeypatch.setattr(files, "_WIDEST_GAP", 0)
@@ -463,6 +467,7 @@ def test_a_wrong_answer_is_asked_for_once_more(server, tiles, tmp_path, plain, m
     assert bare_earth.info(address).point_count == count
 
 
+@pytest.mark.rest
 def test_two_runs_at_once_share_an_empty_cache(server, tiles, tmp_path):
     server.latency, address, errors = 0.05, add(server, tiles[0]), []
 

@@ -49,6 +49,7 @@ def trust(authority, monkeypatch, tmp_path):
     monkeypatch.setenv("SSL_CERT_FILE", str(file))
 
 
+@pytest.mark.rest
 def test_an_authority_in_ssl_cert_file_is_trusted(serve, authority, monkeypatch, tmp_path):
     content = many_nodes(tmp_path)
     trust(authority, monkeypatch, tmp_path)

@@ -153,6 +153,7 @@ def test_breaklines_keep_their_heights(cloud, tmp_path, name):
 FAR = np.add(CORNERS, (5000.0, 0.0))
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize("option", ["boundary", "corrections", "no-ground", "water"])
 @pytest.mark.parametrize("crs", ["EPSG:4326", UTM])
 def test_polygons_outside_of_the_points_are_the_same_error(cloud, tmp_path, capsys, option, crs):
@@ -175,6 +176,7 @@ def test_lines_outside_of_the_points_are_the_same_error(cloud, tmp_path, capsys,
     assert not list(tmp_path.glob("o.*"))
 
 
+@pytest.mark.rest
 def test_geometry_may_lie_in_one_of_many_files(tmp_path, capsys):
     for number in range(2):
         write(tmp_path / f"{number}.laz", 500.0 * number)

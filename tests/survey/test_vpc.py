@@ -67,6 +67,7 @@ def test_the_place_on_the_globe_is_that_of_the_crs(las):
     assert item["bbox"][2::3] == [10, 90]
 
 
+@pytest.mark.rest
 def test_libraries_agree_on_places(monkeypatch):
     wkt = wkt_of_epsg(2927)
     places = np.array([(1_100_000.0, 600_000.0), (1_200_000.0, 7e5)])

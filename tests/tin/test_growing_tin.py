@@ -78,6 +78,7 @@ def test_vertices_on_edges_and_on_the_hull_leave_no_flat_triangle():
     assert tin.count == 2 * 29 * 19
 
 
+@pytest.mark.rest
 def test_the_diagonals_of_a_lattice_do_not_depend_on_what_came_first():
     points, random = _lattice(), np.random.default_rng(3)
     corners = hull_corners(points.x, points.y)

@@ -60,6 +60,7 @@ def test_every_cell_of_the_grid_keeps_a_point():
     assert len(np.unique(np.floor(kept.x / 10) * 1000 + np.floor(kept.y / 10))) == 10 * 10
 
 
+@pytest.mark.rest
 def test_a_looser_tolerance_keeps_fewer():
     points = _hills()
     counts = [

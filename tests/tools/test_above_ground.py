@@ -257,6 +257,7 @@ def test_the_order_of_the_points_and_threads_do_not_matter(village):
         assert np.array_equal(classes_above_ground(points, ground, several), found)
 
 
+@pytest.mark.rest
 def test_one_file(file, village, tmp_path):
     out = tmp_path / "out.laz"
     summary = above_ground(file, out)
@@ -310,6 +311,7 @@ def test_points_on_disk_get_the_same_classes(file, finished, tmp_path):
     assert np.array_equal(classes_of(finished), classes_of(tmp_path / "disk.laz"))
 
 
+@pytest.mark.rest
 def test_classes_with_a_meaning_stay(village, tmp_path):
     classes = village.classes.copy()
     classes[village.classes == 6] = 1

@@ -371,6 +371,7 @@ FIELD = {  # counted checkpoints without and with vegetation
 }  # fmt: skip
 
 
+@pytest.mark.rest(but="cp-header-feet.csv")
 @pytest.mark.parametrize("name", FIELD)
 def test_files_from_the_field(name):
     given = read_checkpoints(real(f"field2/{name}"))

@@ -128,6 +128,7 @@ def test_north_before_east_is_noticed(survey):
         check([survey], Checkpoints.of(rows))
 
 
+@pytest.mark.rest
 def test_many_files_equal_one(survey, tmp_path, monkeypatch):
     x, y, z, classes = cloud()
     order = np.random.default_rng(5).permutation(len(x))

@@ -128,6 +128,7 @@ def test_the_method_sees_what_lies_near_the_area_and_no_more(unit, long_scene, m
     assert np.ptp(given["points"].x) == pytest.approx(440, abs=0.5)
 
 
+@pytest.mark.rest
 def test_outside_an_area_even_old_ground_and_class_0_stay(scene):
     points, _ = scene
     classes = np.arange(points.count, dtype=np.uint8) % 3

@@ -217,6 +217,7 @@ def test_without_a_window_the_middle_is_taken(source, tmp_path, capsys):
     assert page.read_bytes() == first
 
 
+@pytest.mark.rest
 def test_the_middle_of_a_wide_survey_is_250_m_wide(tmp_path):
     source = tmp_path / "wide.laz"
     rows = np.arange(0.0, 800.0, 4.0)

@@ -94,6 +94,7 @@ def test_heights_of_a_breakline_that_cannot_be_are_taken_from_the_ground(tmp_pat
     assert re.search(told, progress.warnings[-1])
 
 
+@pytest.mark.rest
 def test_a_breakline_of_zeros_has_no_heights_on_low_land_either(tmp_path):
     x, y = scatter(SIZE, 1.0, seed=2)
     source = _write(tmp_path / "low.laz", x, y, np.full(len(x), 3.0))
@@ -133,6 +134,7 @@ def lake(tmp_path):
     return _write(tmp_path / "lake.laz", x, y, np.where(away < 0.0, z + waves, z))
 
 
+@pytest.mark.rest
 def test_a_lake_is_flat_at_the_level_of_its_banks(lake, tmp_path):
     shore = _square(30.0, 30.0, 90.0, 90.0)
     found, x, y = _raster(lake, tmp_path / "dtm.tif", water=(shore,))
@@ -188,6 +190,7 @@ def test_points_of_class_9_in_the_water_decide_its_level(tmp_path):
         np.testing.assert_array_equal(_raster(tiles, tmp_path / "tiles.tif", **how)[0], found)
 
 
+@pytest.mark.rest
 def test_an_island_stays(lake, tmp_path):
     shore = (*_square(30.0, 30.0, 90.0, 90.0), *_square(50.0, 50.0, 70.0, 70.0))
     found, x, y = _raster(lake, tmp_path / "dtm.tif", water=(shore,))
@@ -195,6 +198,7 @@ def test_an_island_stays(lake, tmp_path):
     assert np.ptp(found[island]) > 0.5
 
 
+@pytest.mark.rest
 def test_each_branch_of_a_river_falls_along_its_own_line(tmp_path):
     x, y = scatter(SIZE, 1.0, seed=5)
     main, branch = np.abs(y - 30.0) - 10.0, np.maximum(np.abs(x - 60.0) - 8.0, 30.0 - y)

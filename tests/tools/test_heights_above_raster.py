@@ -244,6 +244,7 @@ def test_values_at_the_border_and_outside(tmp_path):
     assert not len(sampler.heights(np.zeros(0), np.zeros(0)))
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize("kind", ["WKT1_GDAL", "WKT1_ESRI", "WKT2_2019"])
 @pytest.mark.parametrize("code", ["EPSG:2264+6360", "EPSG:25832+8228", "EPSG:25832"])
 def test_written_heights_keep_their_unit(tmp_path, code, kind):

@@ -100,6 +100,7 @@ def hut(las):
     return las.make("hut.laz", version=4, point_format=6, records=records), roof
 
 
+@pytest.mark.rest
 def test_heights_are_those_of_the_product(hut, las):
     source, roof = hut
     once, classified, twice = (las.folder / f"{name}.laz" for name in ("once", "first", "twice"))
@@ -111,6 +112,7 @@ def test_heights_are_those_of_the_product(hut, las):
     assert np.allclose(heights[roof], 6.0, atol=0.05)
 
 
+@pytest.mark.rest
 def test_the_command_writes_ground_alone_and_says_how_many_it_left_out(hut, las, capsys):
     source, roof = hut
     whole, alone = las.folder / "whole.laz", las.folder / "alone.laz"

@@ -328,6 +328,7 @@ def test_each_raster_alone_is_the_same(tmp_path, name):
     assert np.array_equal(one[0], other[0], equal_nan=True) and one[1] == other[1]
 
 
+@pytest.mark.rest
 def test_gaps_are_filled_up_to_the_maximum_edge(tmp_path):
     scene(tmp_path / "in.las")
     las = laspy.read(tmp_path / "in.las")

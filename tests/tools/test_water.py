@@ -68,6 +68,7 @@ def reservoir(x, y):
     return np.hypot(east, north) - 300.0 * (1.0 + 0.2 * np.sin(3 * np.arctan2(north, east)))
 
 
+@pytest.mark.rest(but="0.05")
 @pytest.mark.parametrize("slope", [0.05, 0.5])
 def test_a_reservoir_in_woods_is_found_in_few_points(slope):
     """Few of the points in a wood are ground, and some crowns hang over the water."""
@@ -179,6 +180,7 @@ def test_many_files_give_the_same_as_one(survey, tmp_path, capsys):
     assert np.abs(ring.mean(axis=0) - (500_200, 5_600_210)).max() < 20
 
 
+@pytest.mark.rest(but=".geojson")
 @pytest.mark.parametrize("suffix", quick([".gpkg", ".geojson", ".shp", ".fgb"], ".geojson", ".shp"))
 def test_polygons_and_breaklines_are_read_again(survey, tmp_path, suffix):
     from bare_earth.algorithms.survey.vector_files import read_boundary, read_lines
@@ -206,6 +208,7 @@ def test_a_terrain_model_with_the_water_that_is_found(survey, tmp_path):
     assert abs(heights[inside][0] - LEVEL) < 0.3
 
 
+@pytest.mark.rest
 def test_the_command_prints_what_it_found_and_the_limits_if_it_found_nothing(
     survey, tmp_path, capsys
 ):

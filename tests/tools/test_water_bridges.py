@@ -197,6 +197,7 @@ def test_the_terrain_has_no_dam_below_a_bridge(tmp_path):
     assert errors["with"] < 0.3 and errors["without"] > 4.0
 
 
+@pytest.mark.rest
 def test_bridges_without_water_below_them_are_told(tmp_path, capsys):
     told = []
     for name, is_wet in (("dry", False), ("wet", True)):

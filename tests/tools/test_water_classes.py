@@ -79,6 +79,7 @@ def classify(source, target, water=None, **options):
     return bare_earth.water_classes(source, target, water=water, **options)
 
 
+@pytest.mark.rest
 @pytest.mark.parametrize(("epsg", "unit"), [(UTM, 1.0), (FEET, US_FOOT)])
 @pytest.mark.parametrize("distance", [DISTANCE, 3.0, 0.0])
 def test_each_ground_point_gets_the_class_of_its_place(tmp_path, epsg, unit, distance):
@@ -129,6 +130,7 @@ def test_points_on_disk_get_the_same_classes(tmp_path):
     assert (tmp_path / "disk.laz").read_bytes() == (tmp_path / "memory.laz").read_bytes()
 
 
+@pytest.mark.rest
 def test_many_files_have_no_seams_and_go_on(tmp_path):
     (tmp_path / "in").mkdir()
     names = "a", "b", "c"
@@ -149,6 +151,7 @@ def test_many_files_have_no_seams_and_go_on(tmp_path):
     assert told["kept_count"] == 0
 
 
+@pytest.mark.rest
 def test_the_water_can_be_found_first(tmp_path):
     scene = lake_scene("sparse")
     scene.classes[scene.classes == 1] = 2  # a filter took the stray returns for ground

@@ -132,6 +132,7 @@ def test_each_branch_of_a_river_has_its_own_level(name):
     assert np.percentile(channels.off(body), 95) < 0.2 and channels.off(body).max() < 0.3
 
 
+@pytest.mark.rest(but="45")
 @pytest.mark.parametrize("angle", [45, 90])
 def test_two_arms_that_join_have_their_own_levels(angle):
     """One falls three times as far as the other, and their banks meet in the last reaches."""
