@@ -8,6 +8,10 @@
         <translation>„{}“ lässt sich nicht schreiben: Die Antwort ist nicht gespeichert. Exportieren Sie den Layer als GeoPackage.</translation>
     </message>
     <message>
+        <source>"{}" is from the run "{}", and "{}" from "{}": choose both from one run.</source>
+        <translation>„{}“ stammt aus dem Lauf „{}“, „{}“ aber aus „{}“: Wählen Sie beide aus einem Lauf.</translation>
+    </message>
+    <message>
         <source>0 to 1</source>
         <translation>0 bis 1</translation>
     </message>
@@ -2052,12 +2056,28 @@
         <translation>Z, an Stelle der Höhe</translation>
     </message>
     <message>
+        <source>a gap of {width} without ground</source>
+        <translation>eine Lücke von {width} ohne Boden</translation>
+    </message>
+    <message>
+        <source>a gap of {width} without ground, beside a step or a slope</source>
+        <translation>eine Lücke von {width} ohne Boden, neben einer Stufe oder einem Hang</translation>
+    </message>
+    <message>
+        <source>a large expected error</source>
+        <translation>ein großer erwarteter Fehler</translation>
+    </message>
+    <message>
         <source>bare earth,surface,buildings,trees,vegetation,off-terrain objects,oto,whitebox,lindsay,top-hat</source>
         <translation>Boden,Oberfläche,Gebäude,Bäume,Vegetation,Objekte,oto,whitebox,lindsay,top-hat</translation>
     </message>
     <message>
         <source>below water</source>
         <translation>unter Wasser</translation>
+    </message>
+    <message>
+        <source>beside water or the border of the survey</source>
+        <translation>neben Wasser oder am Rand der Befliegung</translation>
     </message>
     <message>
         <source>buildings,roofs,trees,classes,classification,bridges,noise,lasclassify,asprs,ign</source>
@@ -2148,6 +2168,10 @@
         <translation>Gruppen tiefer Punkte</translation>
     </message>
     <message>
+        <source>hardly any ground under plants or on roofs</source>
+        <translation>kaum Boden unter Pflanzen oder auf Dächern</translation>
+    </message>
+    <message>
         <source>height,extra bytes</source>
         <translation>Höhe,Zusatzdimension</translation>
     </message>
@@ -2190,6 +2214,10 @@
     <message>
         <source>low outliers</source>
         <translation>tiefe Ausreißer</translation>
+    </message>
+    <message>
+        <source>low plants: the ground may be up to {error} too high</source>
+        <translation>niedrige Pflanzen: Der Boden ist vielleicht bis zu {error} zu hoch</translation>
     </message>
     <message>
         <source>lowest points, undisputed</source>
@@ -2248,6 +2276,10 @@
         <translation>Stellen zum Prüfen</translation>
     </message>
     <message>
+        <source>plants or ground: low points were not taken for ground, up to {error} off</source>
+        <translation>Pflanzen oder Boden: Tiefe Punkte wurden nicht als Boden genommen, bis zu {error} daneben</translation>
+    </message>
+    <message>
         <source>plants or outliers</source>
         <translation>Pflanzen oder Ausreißer</translation>
     </message>
@@ -2292,6 +2324,10 @@
         <translation>Ränder niedriger Objekte</translation>
     </message>
     <message>
+        <source>rough ground: a step, rocks or plants that were kept as ground</source>
+        <translation>rauer Boden: eine Stufe, Felsen oder Pflanzen, die Boden geblieben sind</translation>
+    </message>
+    <message>
         <source>seeds</source>
         <translation>Startpunkte</translation>
     </message>
@@ -2314,6 +2350,10 @@
     <message>
         <source>slope,vosselman,whitebox,top-hat</source>
         <translation>Neigung,Hangneigung,vosselman,whitebox,top-hat</translation>
+    </message>
+    <message>
+        <source>steep ground</source>
+        <translation>steiler Boden</translation>
     </message>
     <message>
         <source>steep rises</source>
@@ -2402,6 +2442,10 @@
     <message>
         <source>{label} must be a number, not {value}.</source>
         <translation>{label} muss eine Zahl sein, nicht {value}.</translation>
+    </message>
+    <message>
+        <source>{rise} of relief</source>
+        <translation>{rise} Höhenunterschied</translation>
     </message>
     <message>
         <source>{} and others</source>

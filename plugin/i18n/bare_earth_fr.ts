@@ -8,6 +8,10 @@
         <translation>« {} » ne peut pas être écrite : la réponse n'est pas enregistrée. Exportez-la en GeoPackage.</translation>
     </message>
     <message>
+        <source>"{}" is from the run "{}", and "{}" from "{}": choose both from one run.</source>
+        <translation>« {} » vient du calcul « {} », et « {} » de « {} » : choisissez les deux dans un même calcul.</translation>
+    </message>
+    <message>
         <source>0 to 1</source>
         <translation>0 à 1</translation>
     </message>
@@ -2052,12 +2056,28 @@
         <translation>Z, à la place de l'altitude</translation>
     </message>
     <message>
+        <source>a gap of {width} without ground</source>
+        <translation>un vide de {width} sans sol</translation>
+    </message>
+    <message>
+        <source>a gap of {width} without ground, beside a step or a slope</source>
+        <translation>un vide de {width} sans sol, à côté d'une marche ou d'une pente</translation>
+    </message>
+    <message>
+        <source>a large expected error</source>
+        <translation>une grande erreur attendue</translation>
+    </message>
+    <message>
         <source>bare earth,surface,buildings,trees,vegetation,off-terrain objects,oto,whitebox,lindsay,top-hat</source>
         <translation>sol nu,surface,bâtiments,arbres,végétation,sursol,objets,oto,whitebox,lindsay,top-hat</translation>
     </message>
     <message>
         <source>below water</source>
         <translation>sous l'eau</translation>
+    </message>
+    <message>
+        <source>beside water or the border of the survey</source>
+        <translation>à côté de l'eau ou au bord du levé</translation>
     </message>
     <message>
         <source>buildings,roofs,trees,classes,classification,bridges,noise,lasclassify,asprs,ign</source>
@@ -2148,6 +2168,10 @@
         <translation>groupes de points bas</translation>
     </message>
     <message>
+        <source>hardly any ground under plants or on roofs</source>
+        <translation>presque pas de sol sous les plantes ou sur les toits</translation>
+    </message>
+    <message>
         <source>height,extra bytes</source>
         <translation>hauteur,dimension supplémentaire</translation>
     </message>
@@ -2190,6 +2214,10 @@
     <message>
         <source>low outliers</source>
         <translation>points aberrants bas</translation>
+    </message>
+    <message>
+        <source>low plants: the ground may be up to {error} too high</source>
+        <translation>plantes basses : le sol est peut-être trop haut, de {error} au plus</translation>
     </message>
     <message>
         <source>lowest points, undisputed</source>
@@ -2248,6 +2276,10 @@
         <translation>endroits à vérifier</translation>
     </message>
     <message>
+        <source>plants or ground: low points were not taken for ground, up to {error} off</source>
+        <translation>plantes ou sol : des points bas n'ont pas été pris pour du sol, jusqu'à {error} d'écart</translation>
+    </message>
+    <message>
         <source>plants or outliers</source>
         <translation>plantes ou points aberrants</translation>
     </message>
@@ -2292,6 +2324,10 @@
         <translation>bords d'objets bas</translation>
     </message>
     <message>
+        <source>rough ground: a step, rocks or plants that were kept as ground</source>
+        <translation>sol accidenté : une marche, des rochers ou des plantes gardés comme sol</translation>
+    </message>
+    <message>
         <source>seeds</source>
         <translation>points de départ</translation>
     </message>
@@ -2314,6 +2350,10 @@
     <message>
         <source>slope,vosselman,whitebox,top-hat</source>
         <translation>pente,vosselman,whitebox,top-hat</translation>
+    </message>
+    <message>
+        <source>steep ground</source>
+        <translation>sol en forte pente</translation>
     </message>
     <message>
         <source>steep rises</source>
@@ -2402,6 +2442,10 @@
     <message>
         <source>{label} must be a number, not {value}.</source>
         <translation>{label} doit être un nombre, pas {value}.</translation>
+    </message>
+    <message>
+        <source>{rise} of relief</source>
+        <translation>{rise} de dénivelé</translation>
     </message>
     <message>
         <source>{} and others</source>
