@@ -88,3 +88,16 @@ def test_without_a_terrain_model_the_line_is_the_shortest_across():
     rasters = Rasters(np.ones((100, 100), dtype=np.float32), None, None, 0.5)
     start, end = line_of(rasters, place)
     assert abs(start[0] - end[0]) < 1e-6 and abs(end[1] - start[1]) * 0.5 >= 30
+
+
+@pytest.mark.parametrize("seed", [0, 3, 39, 45])
+def test_the_line_is_the_same_wherever_the_raster_begins(seed):
+    terrain = 50.0 + 3.0 * (np.random.default_rng(seed).random((80, 80)) > 0.995)
+    lines = []
+    for more in (0, 1, 30):
+        wider = np.pad(terrain, ((more, 0), (more, 0)), constant_values=np.nan)
+        rasters = Rasters(np.ones_like(wider), wider, None, 1.0)
+        window, worst = (slice(10 + more, 14 + more),) * 2, (12 + more, 11 + more)
+        place = PlaceToReview(window, np.ones((4, 4), dtype=bool), 1.0, worst, 1.0, 16.0, 0, 0, "")
+        lines.append(line_of(rasters, place) - more)
+    np.testing.assert_allclose(lines, [lines[0]] * 3, atol=1e-9)

@@ -80,7 +80,9 @@ def _departure(
     if terrain is None:
         return 0.0
     steps = np.arange(np.ceil(ends[0]), ends[1])
-    rows, columns = np.rint(worst[:, None] + np.outer(way, steps)).astype(np.intp)
+    # Halves go to even numbers: of cells from the worst one, wherever the raster begins.
+    cells = np.rint(np.round(np.outer(way, steps), 6)).astype(np.intp)
+    rows, columns = worst[:, None] + cells
     there = are_inside(rows, columns, terrain.shape)
     heights = terrain[rows[there], columns[there]].astype(np.float64)
     known = np.isfinite(heights)
