@@ -17,7 +17,9 @@ from . import plain_shapes as shapes
 from .plain_things import (
     Plain,
     by_house,
+    cut_off,
     earth,
+    layers,
     leafy,
     loose,
     numbered,
@@ -25,6 +27,7 @@ from .plain_things import (
     plants,
     solid,
     understory,
+    whole,
     wooded,
 )
 
@@ -96,10 +99,20 @@ ruin 15x0.8/5/8 25x1.2/0/4
 mound 12x1.5/0/4 25x4/0/1 15x3/15/2
 heap 15x4/0/4 30x9/0/2
 butte 40x8/0/4 60x13/10/2 75x13/0/4 90x20/5/1
+bund 0.6x1.5/0/8 0.5x0.8/0/8 0.6x1/10/20 1x1.2/5/4
+"""),
+    (whole, _STAYS, 5.0, 0.3, """
+approach 8x4/0/8 14x6/0/2 10x5/3/4 14x4/0/8
+bend 9x4/0/8 12x6/3/4
+"""),
+    (cut_off, _STAYS, 5.0, 0.3, """
+moat 32x7x3/0/8 24x5x2/10/4 50x6x2.5/0/2
+channels 26x4x2.5/0/8 15x4x1.5/5/4 40x6x3/0/2
+fissures 10x1x3/0/16 14x1.5x2/5/8
 """),
     (wooded, _STAYS, 5.0, 0.2, """
 bowl-under-trees=bowl 5x1.5/0/8 8x2/20/8 6x2/0/20 10x4/10/4
-pit-under-trees=pit 6x3/0/20 8x4/10/8
+pit-under-trees=pit 6x3/0/20 8x4/10/8 24x8/0/8
 ditch-under-trees=ditch 4x1.5/5/8
 hollow-way-under-trees=hollow_way 5x2/20/8
 mound-under-trees=mound 15x2/0/8
@@ -124,6 +137,9 @@ angled 60x50x3/0/4 120x90x5/3/1.5
 stepped 100x50x4/0/2 60x30x3/5/4
 aisled 60x45x4x3/0/4 70x50x4x5/2/4 110x70x5x3/3/2 110x70x5x5/3/2
 drum 12x6/0/4 30x10/3/2
+hemisphere 40/0/8 24/5/4
+blocks=boxes 30x20x6x5x2/0/4 40x25x9x8x2/5/2 25x15x5x3x3/0/8
+grandstand=lean_to 14x50x2.2/0/4 40x20x2.5/3/8
 """),
     (solid, _GOES, 5.0, 0.3, """
 a-frame 16x10x8/0/8 12x8x7/5/4 20x12x8/0/2 10x6x5/10/8
@@ -133,6 +149,8 @@ polytunnels=vaults 40x8x3.2x1x4/0/8 70x8x3.2x1x4/0/7 60x8x3.5x1x8/3/4\
  50x6x2.5x1x5/0/8 60x9x4x1.5x3/5/2
 glasshouses 60x6x4x0x8/0/4 60x8x4.5x1x5/2/8 40x10x3x3x4/0/2
 panels 40x4x0.8x0.4x4x6/0/8 50x4x2x0x1.5x6/5/4 60x2.2x0.6x0.2x2x10/10/8
+solar-park=panels 76x3.6x0.7x0.36x3.4x8/0/15 40x3x0.5x0.36x3.5x6/5/8 60x4x0.8x0.36x4x7/10/4
+stacks=boxes 10x8x1.2x4x2/0/8 10x8x2.4x5x2/3/4
 barges=boxes 50x9x2.5x2x3/0/2 40x8x3x1x4/0/2
 containers=boxes 12.2x2.5x2.6x1x4/0/8 6x2.5x2.6x0.5x6/2/4
 sheds=boxes 3x3x2.4x6x4/5/4
@@ -145,6 +163,8 @@ walls=boxes 25x0.5x2x10x2/0/12 30x0.6x1.5x10x2/5/8
     (leafy, _GOES, 5.0, 0.3, """
 hedges=boxes 40x1.5x1.8x15x2/0/8 40x2.5x2.5x15x2/10/4
 bushes=domes 2.5x1.5x3x6/0/8 4x3x4x5/10/4
+shrubs=domes 2x1.3x2x8/35/6 2x1.5x3x6/25/12
+low-hedges=boxes 40x1.5x1x15x2/0/20 40x2x1.5x15x2/0/8
 thicket=flat 30x15x2/0/8
 """),
     (plants, _GOES, 5.0, 0.15, """
@@ -160,6 +180,9 @@ numbered-grass= 0.5x60/5/8 0.8x80/0/20 1.2x70/0/10 0.4x50/0/100
     (outliers, _GOES, 5.0, 0.15, """
 low-clumps= 0.5x2x8/0/4 1x5x15/0/8 2x10x30/0/8 0.3x1x5/0/20 0.8x3x10/10/8 3x4x40/0/4\
  1.5x1.5x12/0/8
+"""),
+    (layers, _GOES, 5.0, 0.15, """
+layers= 20x12x10/0/8 40x12x10/0/8 30x8x20/5/4 12x5x60/0/20 6x6x100/0/8
 """),
     (outliers, _GOES, 0.0, 0.15, """
 low-points= 0.1x1.5x1/0/4 0.1x8x1/10/2 0.1x4x1/0/20

@@ -12,8 +12,8 @@ from .relief import smooth
 
 # Metres in plan that an upright wall of earth takes, so that it is a wall at any density.
 _FACE = 0.25
-# Fall over run of ramps.
-_RAMP = 0.15
+# Fall over run of ramps, and of those to bridges.
+_RAMP, _APPROACH = 0.15, 0.06
 
 
 def _trapezoid(distance, top, flank):
@@ -102,6 +102,43 @@ def plateau(u, v, side, height, run):
     inside = side / 2 - np.maximum(np.abs(u), np.abs(v))
     way = np.where(np.abs(v) < side / 6, (side / 2 + run - u) / run, 0.0) * (u > 0)
     return height * np.clip(np.maximum(inside / _FACE, way), 0.0, 1.0)
+
+
+def bund(u, v, top, height):
+    return dyke(u, v, top, height, 1.0)
+
+
+def approach(u, v, width, height):
+    """A ramp between walls up to the abutment of a bridge."""
+    run = height / _APPROACH
+    up = np.clip(u / run + 0.5, 0.0, 1.0) * np.clip((run / 2 - u) / _FACE, 0.0, 1.0)
+    return height * up * np.clip((width / 2 - np.abs(v)) / _FACE, 0.0, 1.0)
+
+
+def bend(u, v, width, height, radius=60.0):
+    """An `approach` along an arc."""
+    r, along = np.hypot(u, v - radius), np.arctan2(u, radius - v) * radius
+    return approach(along, r - radius, width, height)
+
+
+def moat(u, v, side, width, depth, is_land=False):
+    """A square island behind a moat with upright walls."""
+    out = np.maximum(np.abs(u), np.abs(v)) - side / 2
+    return out < 0 if is_land else -depth * _trapezoid(np.abs(out - width / 2), width, _FACE)
+
+
+def channels(u, v, between, width, depth, is_land=False):
+    """Land between two parallel channels with upright walls."""
+    out = np.abs(v) - between / 2
+    return out < 0 if is_land else -depth * _trapezoid(np.abs(out - width / 2), width, _FACE)
+
+
+def fissures(u, v, side, width, depth, is_land=False):
+    """Plates between fissures."""
+    out = np.maximum(*(np.abs(np.mod(axis, side) - side / 2) for axis in (u, v))) - side / 2
+    inside = np.maximum(np.abs(u), np.abs(v)) < 2.5 * side + width
+    fall = np.where(inside, _trapezoid(-out, width, _FACE), 0.0)
+    return inside & (fall == 0.0) if is_land else -depth * fall
 
 
 def bank(u, v, width, height):
@@ -233,6 +270,10 @@ def aisled(u, v, length, width, eaves, aisle):
     """A hall 6 m higher than the aisle that is all round it."""
     nave = flat(u, v, length - 2.0 * aisle, width - 2.0 * aisle, 0.0)
     return flat(u, v, length, width, eaves) + 6.0 * np.isfinite(nave)
+
+
+def hemisphere(u, v, width):
+    return np.sqrt(np.maximum((width / 2) ** 2 - u**2 - v**2, 0.0)) + drum(u, v, width, 0.0)
 
 
 def drum(u, v, width, height):

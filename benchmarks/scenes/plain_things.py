@@ -107,12 +107,13 @@ def _extent(shape: Callable[..., np.ndarray], sizes: tuple[float, ...]) -> float
     return 1.8 * float(np.hypot(u, v)[np.isfinite(shape(u, v, *sizes))].max(initial=3.0))
 
 
-def _breadth(row: Row) -> float:
+def _breadth(row: Row, of: Callable = min) -> float:
     """Return how wide earth is, across what is long; 0 for what has no other side."""
     axis, zero = np.arange(-100.0, 100.5, 0.5), np.zeros(401)
     rises = (np.abs(row.kind.shape(*places, *row.sizes)) for places in ((axis, zero), (zero, axis)))
-    least = min(float(np.ptp(axis[rise > 0.1 * rise.max()])) for rise in rises if rise.any())
-    return least if least < 99.0 else 0.0
+    sides = (float(np.ptp(axis[rise > 0.1 * rise.max()])) for rise in rises if rise.any())
+    side = of(sides)
+    return side if side < 150.0 else 0.0
 
 
 def _struck(site: _Site, floor: Callable, top: Callable) -> tuple[np.ndarray, ...]:
@@ -130,9 +131,9 @@ def _struck(site: _Site, floor: Callable, top: Callable) -> tuple[np.ndarray, ..
     return np.where(is_solid, x + slant * (z - land), x), y, z, is_solid
 
 
-def earth(row: Row, has_house: bool = False) -> Plain:
+def earth(row: Row, has_house: bool = False, of: Callable = min) -> Plain:
     """Return earth in the open."""
-    site = _Site(row, max(_LEAST, _breadth(row) + 2 * _ROUND))
+    site = _Site(row, max(_LEAST, _breadth(row, of) + 2 * _ROUND))
 
     def terrain(x, y):
         return site.land(x, y) + site.rise(x, y)
@@ -154,6 +155,20 @@ def earth(row: Row, has_house: bool = False) -> Plain:
         rise = rise * near
     thing = ~solid & (rise > 0.1 * rise.max())
     return site.plain(x, y, z, np.where(solid, BUILDING, GROUND), thing, terrain)
+
+
+def whole(row: Row) -> Plain:
+    """Return earth in the open, with both of its ends."""
+    return earth(row, of=max)
+
+
+def cut_off(row: Row) -> Plain:
+    """Return land behind gaps in it."""
+    plain = earth(row)
+    (x, y, _), (west, south) = plain.scene.points, plain.scene.corner
+    places = _turned(x - west, y - south, plain.angle)
+    is_land = row.kind.shape(*places, *row.sizes, is_land=True)
+    return plain._replace(thing=is_land & (plain.scene.classes == GROUND))
 
 
 def by_house(row: Row) -> Plain:
@@ -256,6 +271,21 @@ def leafy(row: Row) -> Plain:
     height = np.where(leaf, rise, 0.0) * site.random.uniform(0.4, 1.0, site.count)
     z, classes = site.land(site.x, site.y) + height, np.where(leaf, LOW_VEGETATION, GROUND)
     return site.plain(site.x, site.y, z, classes, height > _TOLD, site.land)
+
+
+def layers(row: Row) -> Plain:
+    """Return a layer below the land: its side, its depth, its density in percent of the land's."""
+    side, depth, share = row.sizes
+    site = _Site(row, side + 2 * _ROUND)
+    random = site.random
+    x, y = random.uniform(
+        -side / 2, side / 2, (2, int(side**2 * share / 100.0 * site.count / site.side**2))
+    )
+    low = site.land(x, y) - depth + random.normal(0.0, 0.02 * depth, len(x))
+    classes = np.append(np.full(site.count, GROUND), np.full(len(x), LOW_NOISE))
+    z = np.append(site.land(site.x, site.y), low)
+    x, y = np.append(site.x, x), np.append(site.y, y)
+    return site.plain(x, y, z, classes, classes == LOW_NOISE, site.land)
 
 
 def outliers(row: Row) -> Plain:
