@@ -33,7 +33,7 @@ _LEFT_IN = "lowest-points", "seeds", "tolerance-surface", "near-surface", "known
 # Rules that are left out together.
 GROUPS = {
     "low points": (
-        "dense-outliers", "below-water", "low-groups", "wide-low-groups", "narrow-pits",
+        "dense-outliers", "below-water", "low-groups", "below-land", "narrow-pits",
         "isolated-low-points",
 
     ),

@@ -143,7 +143,8 @@ class Pipeline:
             part(1.0)
             if outliers and number == outliers[-1]:
                 grid = state.grids[0]
-                _warn_of_outliers(len(grid.lowest), grid.heights.values, progress)
+                known = int(np.count_nonzero(np.isfinite(grid.heights.values)))
+                warn_of_outliers(len(grid.lowest), len(grid.lowest) - known, progress)
         return state
 
     @staticmethod
@@ -168,9 +169,8 @@ def _apply_to_grids(rule: GridRule, state: State, progress: Progress) -> None:
     in_threads(apply, range(count))
 
 
-def _warn_of_outliers(count: int, heights: np.ndarray, progress: Progress) -> None:
-    """Warn if many of the `count` lowest points are low outliers, without a height."""
-    outliers = count - np.count_nonzero(np.isfinite(heights))
+def warn_of_outliers(count: int, outliers: int, progress: Progress) -> None:
+    """Warn if many of the `count` lowest points are low outliers."""
     if count >= _LEAST_CELLS and outliers > _MOST_OUTLIERS * count:
         progress.warning(
             f"More than {100 * _MOST_OUTLIERS:g} % of the lowest points are taken for low outliers."

@@ -267,10 +267,16 @@ def _classic(resolved: TinDensification, values: Lidar360Preset) -> Pipeline:
                 on_slope=None,
                 in_images=True,
                 gentle_border=GentleBorder(
-                    shares=(0.5, 0.5), in_one_place=0.5, least_area=0.0, most_cut=1.0
+                    shares=(0.5, 0.5),
+                    in_one_place=0.5,
+                    least_area=0.0,
+                    most_cut=1.0,
+                    row_width=0.0,
                 ),
                 rocks=None,
-                low_banks=LowBanks(most_in_row=1.0),
+                low_banks=LowBanks(sparse=0.0, most_in_row=1.0),
+                level_across=None,
+                ramps=None,
             ),
             Seeds(objects_wait=True),
             KnownGround(),

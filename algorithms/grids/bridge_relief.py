@@ -24,7 +24,7 @@ _FILLED = 1.5
 STEP = 0.2
 STEP_SLOPE = 0.2
 # Width of the border in metres, beside the spacing: the distance up to which cells are tested.
-BORDER = 10.0
+BORDER = 15.0
 
 
 class Relief(NamedTuple):

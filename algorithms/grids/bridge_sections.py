@@ -34,7 +34,10 @@ _FEET = 0.5
 # it.
 _FACE = 0.25
 _PIT = 0.5  # share of the drop by which the ground beyond the foot must be lower than the edge
-_BEYOND = BORDER - _FOOT  # distance up to which this holds, m: all that the relief has
+_BEYOND = 4.0  # distance up to which this holds, m
+# Distance up to which it holds at one end at least, m, all that the relief has: beyond ditches on
+# both sides there is land, beyond the gap between two bridges another bridge on one side.
+_BEYOND_ONE = BORDER - _FOOT
 # Radii in cells of the rings round an edge in which the lowest ground is compared with it.
 _RINGS = (0, 1, 2, 4)
 
@@ -108,9 +111,15 @@ def raised_sections(relief: Relief, within: Callable[[Relief], np.ndarray], rule
     found[found] = np.abs(foot - other_foot)[found] <= _FEET * lower[found]
     if rule.is_strict:
         left = lines.take(found)
-        clear = _is_clear(relief, compass, compass.back(left), foot[found], off[found])
-        left = left._replace(start=end[found])
-        clear &= _is_clear(relief, compass, left, other_foot[found], other_off[found])
+        ends = (
+            (compass.back(left), foot[found], off[found]),
+            (left._replace(start=end[found]), other_foot[found], other_off[found]),
+        )
+        clear = np.logical_and(*(_is_clear(relief, compass, *side) for side in ends))
+        near, far = (
+            _is_open(relief, compass, edge, low, away, _BEYOND_ONE) for edge, low, away in ends
+        )
+        clear &= near | far
         found[found] = clear
     return lines.take(found)
 
@@ -242,7 +251,22 @@ def _is_clear(
             cell = middle + (up * columns + right)
             there = heights[cell]
             clear &= ~(is_ground[cell] & (there > low) & (there < high))
-    for step in range(1, round(_BEYOND / relief.cell) + 1):
+    return clear & _is_open(relief, compass, lines, foot, off, _BEYOND)
+
+
+def _is_open(
+    relief: Relief,
+    compass: _Compass,
+    lines: Sections,
+    foot: np.ndarray,
+    off: np.ndarray,
+    farthest: float,
+) -> np.ndarray:
+    """Return where no ground rises up to some metres beyond the foot of an edge."""
+    heights, is_ground = relief.heights.ravel(), relief.is_ground.ravel()
+    edge = heights[lines.start]
+    highest, is_open = edge - _PIT * (edge - foot), np.ones(len(edge), dtype=bool)
+    for step in range(1, round(farthest / relief.cell) + 1):
         cell = compass.cells(lines, off + step)
-        clear &= ~(is_ground[cell] & (heights[cell] > edge - _PIT * drop))
-    return clear
+        is_open &= ~(is_ground[cell] & (heights[cell] > highest))
+    return is_open

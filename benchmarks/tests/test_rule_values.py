@@ -90,5 +90,5 @@ def test_values_are_measured_and_what_was_measured_is_kept(tmp_path, monkeypatch
         assert capsys.readouterr().out == printed
         assert printed.startswith(f"{told} | ")
     assert printed == "shrubs.py._AT_ONCE | no label | nothing\n"
-    rule_values.main(["--values", "wide-low-groups.width", "--kept"])
+    rule_values.main(["--values", "below-land.width", "--kept"])
     assert capsys.readouterr().out == ""

@@ -2072,6 +2072,10 @@
         <translation>Boden,Oberfläche,Gebäude,Bäume,Vegetation,Objekte,oto,whitebox,lindsay,top-hat</translation>
     </message>
     <message>
+        <source>below land</source>
+        <translation>unter Gelände</translation>
+    </message>
+    <message>
         <source>below water</source>
         <translation>unter Wasser</translation>
     </message>
@@ -2352,6 +2356,10 @@
         <translation>Neigung,Hangneigung,vosselman,whitebox,top-hat</translation>
     </message>
     <message>
+        <source>smooth sides of a bank</source>
+        <translation>glatte Böschungen eines Walls</translation>
+    </message>
+    <message>
         <source>steep ground</source>
         <translation>steiler Boden</translation>
     </message>
@@ -2410,10 +2418,6 @@
     <message>
         <source>where it may be</source>
         <translation>wo es sein kann</translation>
-    </message>
-    <message>
-        <source>wide low groups</source>
-        <translation>breite tiefe Gruppen</translation>
     </message>
     <message>
         <source>you have no permission to write into the folder of the profile.</source>

@@ -2072,6 +2072,10 @@
         <translation>sol nu,surface,bâtiments,arbres,végétation,sursol,objets,oto,whitebox,lindsay,top-hat</translation>
     </message>
     <message>
+        <source>below land</source>
+        <translation>sous le terrain</translation>
+    </message>
+    <message>
         <source>below water</source>
         <translation>sous l'eau</translation>
     </message>
@@ -2352,6 +2356,10 @@
         <translation>pente,vosselman,whitebox,top-hat</translation>
     </message>
     <message>
+        <source>smooth sides of a bank</source>
+        <translation>talus lisses d’une levée</translation>
+    </message>
+    <message>
         <source>steep ground</source>
         <translation>sol en forte pente</translation>
     </message>
@@ -2410,10 +2418,6 @@
     <message>
         <source>where it may be</source>
         <translation>où il peut être</translation>
-    </message>
-    <message>
-        <source>wide low groups</source>
-        <translation>larges groupes bas</translation>
     </message>
     <message>
         <source>you have no permission to write into the folder of the profile.</source>

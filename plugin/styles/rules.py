@@ -23,6 +23,7 @@ GROUND = {
     "seeds": Verdict(mark("seeds"), "#c08a45"),
     "fine-seeds": Verdict(mark("seeds of finer cells"), "#a3672f"),
     "level-seeds": Verdict(mark("level with seeds beside"), "#6fae5f"),
+    "bunds": Verdict(mark("smooth sides of a bank"), "#4f8f3f"),
     "known-ground": Verdict(mark("known ground"), "#3f2a14"),
     "densification": Verdict(mark("densification"), "#8a5a2b"),
     "near-surface": Verdict(mark("points near the surface"), "#b5cf8a"),
@@ -44,7 +45,7 @@ OBJECTS = {
     "block-pits": Verdict(mark("pits in blocks"), "#1b3f8a"),
     "isolated-low-points": Verdict(mark("single low points"), "#49c0d6"),
     "low-groups": Verdict(mark("groups of low points"), "#1a2455"),
-    "wide-low-groups": Verdict(mark("wide low groups"), "#5b5fd6"),
+    "below-land": Verdict(mark("below land"), "#5b5fd6"),
     "below-water": Verdict(mark("below water"), "#0fa3b1"),
     "dense-outliers": Verdict(mark("low outliers"), "#127a86"),
 }

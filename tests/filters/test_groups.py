@@ -11,7 +11,8 @@ from bare_earth import classify, terrain
 from bare_earth.algorithms.classes.selection import Selection
 from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.filters import METHODS
-from bare_earth.algorithms.filters.stages.low_noise import BelowWater, LowGroups, WideLowGroups
+from bare_earth.algorithms.filters.stages.below_land import BelowLand
+from bare_earth.algorithms.filters.stages.low_noise import BelowWater, LowGroups
 from bare_earth.algorithms.grids.cells import Cells
 from bare_earth.algorithms.grids.high_groups import HighGroups
 from bare_earth.algorithms.las.reading import read_cloud
@@ -172,13 +173,39 @@ def test_wide_groups_below_streets_are_low_noise(method):
     assert found.ground[~low].mean() > 0.999
 
 
-def test_a_shaft_and_a_pond_are_no_wide_groups():
+def test_a_shaft_and_a_pond_are_not_below_land():
     x, y, z = even()
     for width, depth in ((5.0, 6.0), (3.0, 4.0)):
         inside = np.maximum(np.abs(x - 20.0), np.abs(y - 20.0)) < width / 2.0
         points = Points(x, y, np.where(inside, z - depth, z))
-        cells = Cells.over(points, 3.0)
-        assert not WideLowGroups().find(points, (cells, cells.lowest_points(points))).any()
+        assert not BelowLand().find(points, Cells.over(points, 3.0)).any()
+
+
+def layer(side: float, below: float, share: float) -> tuple[Points, np.ndarray]:
+    """Return sloping land of 90 m with a layer below it, and which points are the layer's."""
+    land, random = even(side=90.0, slope=0.05), np.random.default_rng(5)
+    x, y = random.uniform(45.0 - side / 2, 45.0 + side / 2, (2, int(4.0 * share * side**2)))
+    points = joined(land, np.column_stack((x, y, 50.0 + 0.05 * x - below)))
+    return points, np.arange(points.count) >= land.count
+
+
+@pytest.mark.parametrize(
+    "size", [(20.0, 12.0, 0.1), (40.0, 12.0, 0.1), (12.0, 5.0, 0.6), (6.0, 6.0, 1.0)]
+)
+def test_a_layer_below_land_that_goes_on_above_is_low_noise(size):
+    points, low = layer(*size)
+    found = BelowLand().find(points, Cells.over(points, 2.0))
+    assert np.array_equal(found, low)
+
+
+def test_the_floor_of_a_quarry_below_leaves_is_not_below_land():
+    points, low = layer(40.0, 10.0, 1.0)
+    x, y, z = points
+    inside = np.maximum(np.abs(x - 45.0), np.abs(y - 45.0)) <= 20.0
+    # In place of the land above there are leaves, at all heights.
+    leaves = np.where(inside & ~low, z + np.random.default_rng(6).uniform(-6.0, 6.0, len(z)), z)
+    points = Points(x, y, leaves)
+    assert not BelowLand().find(points, Cells.over(points, 2.0)).any()
 
 
 @pytest.mark.rest

@@ -57,6 +57,12 @@ def test_a_surface_goes_on_across_a_gap_of_less_than_three_metres(gap, width):
 @pytest.mark.parametrize("pit, width", [(4, 0), (5, 8)])
 def test_beyond_its_foot_the_ground_stays_low_for_four_metres(pit, width):
     bank, pit = (12.0, 10), (0.0, pit)
+    assert widest(profile_of(bank, pit, (12.0, 8), (0.0, 12), bank)) == width
+
+
+@pytest.mark.parametrize("pit, width", [(8, 0), (11, 8)])
+def test_land_between_two_ditches_is_no_surface_of_a_bridge(pit, width):
+    bank, pit = (12.0, 20), (0.0, pit)
     assert widest(profile_of(bank, pit, (12.0, 8), pit, bank)) == width
 
 

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from ..pipeline import Pipeline, Rule
 from .accept import NearSurface
+from .below_land import BelowLand
 from .breaks import LevelSeeds, Plants
-from .low_noise import BelowWater, LowGroups, WideLowGroups
+from .bunds import Bunds
+from .low_noise import BelowWater, LowGroups
 from .objects import RaisedObjects
 from .opening import ProgressiveOpening
 from .outliers import DenseOutliers, IsolatedLowPoints, NarrowPits
@@ -36,7 +38,7 @@ def shared_pipeline(
             DenseOutliers(),
             BelowWater(),
             LowGroups(),
-            WideLowGroups(),
+            BelowLand(),
             NarrowPits(),
             IsolatedLowPoints(),
             objects or RaisedObjects(size),
@@ -47,6 +49,7 @@ def shared_pipeline(
             plants,
             # Heaps of a site are as wide as shrubs, and as high.
             *(() if is_site else (Shrubs(),)),
+            *(() if is_site else (Bunds(),)),
             LevelSeeds(),
             *surface,
             tolerance,

@@ -150,30 +150,6 @@ class LowGroups(PointRule):
         return bool(np.diff(below).max() >= self.gap * -below[0])
 
 
-@dataclass(frozen=True)
-class WideLowGroups(LowGroups):
-    """A wider group of points below the ground is low noise if ground points lie above it."""
-
-    # Above a real pit there are none. Reflections in streets and below roofs are such groups.
-
-    width: float = 6.0
-    depth: float = 3.0
-    ring: float = 18.0
-    most_beside: float = 0.1
-    # Least side of the cells whose lowest points are compared, in metres and in spacings of the
-    # points.
-    cell: float = 3.0
-    spacings: float = 3.0
-
-    def apply(self, state: State) -> None:
-        """Add the groups to the low noise."""
-        points, grid = state.points, state.grids[0]
-        cells = grid.cells.wider(points, max(self.cell, self.spacings * state.spacing))
-        index, (x, y, z) = cells.index[grid.lowest], points.take(grid.lowest)
-        first = first_of_each(index, cells.rows * cells.columns, z, x, y)
-        state.add_low_noise(self.find(points, (cells, grid.lowest[first])))
-
-
 class Group(NamedTuple):
     """A low group: the place of its lowest point, and the plane below which its points lie."""
 

@@ -189,9 +189,11 @@ class Rocks(Rule):
 class LowBanks(Rule):
     """A region is a bank (of a field, a dyke or a ditch) if it is low, narrow and even."""
 
+    # Where points are dense, `Bunds` looks at the sides of banks in place of this rule.
     # Cells of a hedge or a wall also have points on the ground beside it, and those of a row of
     # cars are not even. Platforms of ISPRS sample 42 need this rule.
 
+    sparse: float = 0.5  # least spacing of the points in metres
     area: float = 20.0  # least area in square metres
     height: float = 1.2  # largest mean height above the ground in metres
     width: float = 6.0  # largest mean width in metres

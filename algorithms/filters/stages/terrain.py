@@ -6,7 +6,7 @@ dike, a terrace, a plateau with a ramp), or if it has the shape of a landform.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import ClassVar
 
 import numpy as np
@@ -16,6 +16,7 @@ from ..cell_blocks import CellBlocks
 from ..height_grid import HeightGrid
 from ..pipeline import GridRule, Rule, Stage
 from ..state import GridState
+from .landforms import LevelAcross, Ramps
 from .raised_regions import LowBanks, RaisedRegions, Rocks, raised_regions
 
 
@@ -121,6 +122,13 @@ class GentleBorder(Rule):
     # A region of up to `small` square metres is an object, such as an A-frame or a polytunnel, if
     # its mean height is more than `tall` metres and more than the share `steep` of its mean width.
     # Only TIN densification uses it: regions that `SteepRises` or `Rims` raise are whole rocks.
+    # Half of the level border of a narrow region whose border drops along this share must be in one
+    # place: the low edge of a row of panels is level with the ground here and there.
+    row_width: float = 5.0  # largest mean width in metres
+    row_spacing: float = 0.6  # largest spacing of the points in metres: else dykes look like it
+    row_above: float = 0.5  # least mean height above the ground in metres
+    row_sharp: float = 0.4
+    row_piece: float = 0.5
     small: float = 0.0
     tall: float = 2.0
     steep: float = 0.45
@@ -143,8 +151,12 @@ class GentleBorder(Rule):
         if tall.any():
             gentle &= ~(tall & (regions.above > self.steep * regions.mean_width))
         doubtful = gentle & (level < anywhere * border)
-        if doubtful.any():
-            gentle &= ~doubtful | (regions.widths(ground) >= self.width)
+        row = gentle & (regions.mean_width <= self.row_width) & (regions.above > self.row_above)
+        row &= sharp >= self.row_sharp * border
+        if doubtful.any() or row.any():
+            widths = regions.widths(ground)
+            gentle &= ~doubtful | (widths >= self.width)
+            gentle &= ~row | (widths >= self.row_piece * level * regions.size)
         return gentle
 
 
@@ -174,17 +186,22 @@ class GentleRegions(GridRule):
     gentle_border: GentleBorder | None = GentleBorder()
     rocks: Rocks | None = Rocks()
     low_banks: LowBanks | None = LowBanks()
+    level_across: LevelAcross | None = LevelAcross()
+    ramps: Ramps | None = Ramps()
 
     def apply(self, grid: GridState, progress: Progress = SILENT) -> None:
         """Take the regions that are terrain for ground; cells of objects only in landforms."""
         regions = self.regions(grid)
         landforms = np.zeros(len(regions.area), dtype=bool)
-        for rule in (self.rocks, self.low_banks):
-            if rule:
-                landforms |= rule.fits(regions)
+        if self.rocks:
+            landforms |= self.rocks.fits(regions)
+        is_sparse = self.low_banks and grid.spacing >= self.low_banks.sparse
+        if self.low_banks and (is_sparse or grid.from_images):
+            landforms |= self.low_banks.fits(regions)
         terrain = landforms
         if self.in_images or not grid.from_images:
-            terrain = self._joined(regions, landforms)
+            terrain, islands = self._joined(regions, landforms, grid)
+            landforms |= islands
         found, special = (regions.spread(which) for which in (terrain, landforms))
         grid.raised &= ~special & (grid.objects | ~found)
 
@@ -227,11 +244,20 @@ class GentleRegions(GridRule):
             sign[stepped[self.on_slope.on_slope(grid.heights, filled, cell[stepped], axis)]] = 0
         return cell, neighbour, sign
 
-    def _joined(self, regions: RaisedRegions, landforms: np.ndarray) -> np.ndarray:
-        """Return which regions continue gently into the ground, or into others that do."""
+    def _joined(
+        self, regions: RaisedRegions, landforms: np.ndarray, grid: GridState
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """Return which regions continue gently into the ground, or into others that do, and which
+        are land beyond gaps or ramps.
+        """
         joined, count = landforms.copy(), len(regions.area)
-        if not self.gentle_border:
-            return joined
+        islands = np.zeros(count, dtype=bool)
+        gentle = self.gentle_border
+        if not gentle:
+            return joined, islands
+        if grid.spacing > gentle.row_spacing:
+            gentle = replace(gentle, row_width=0.0)
+        across = self.level_across.look(regions, grid) if self.level_across else None
         sharp = np.sum(
             [np.bincount(drop[0], minlength=count) for _, drop, _ in regions.borders], axis=0
         )
@@ -240,16 +266,28 @@ class GentleRegions(GridRule):
             level = np.zeros(count)
             for flat, _, _ in regions.borders:
                 level += np.bincount(flat[0][ground[flat[1]]], minlength=count)
-            new = self.gentle_border.fits(regions, ground, level, sharp)
+            new = gentle.fits(regions, ground, level, sharp)
             new &= regions.area >= self.area
+            if across:
+                level_across = across.fits(ground)
+                islands |= level_across
+                new |= level_across
             if not (new & ~joined).any():
                 break
             joined |= new
-        return joined
+        if self.ramps:
+            found = self.ramps.fits(regions, np.append(joined, True))
+            joined |= found
+            islands |= found
+        return joined, islands
 
 
 # For sites where earth is moved: low berms and stockpiles without a sharp edge are terrain.
-SITE = GentleRegions(in_images=True, gentle_border=GentleBorder(least_area=0.0, most_cut=1.0))
+SITE = GentleRegions(
+    in_images=True,
+    gentle_border=GentleBorder(least_area=0.0, most_cut=1.0, row_width=0.0),
+    low_banks=LowBanks(sparse=0.0),
+)
 
 
 def smoothed(surface: np.ndarray, size: float, smoothing: float) -> np.ndarray:

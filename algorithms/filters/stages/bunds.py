@@ -1,0 +1,117 @@
+"""Low, narrow banks of earth, which openings cut off as they cut off a hedge."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar, Iterator
+
+import numpy as np
+
+from ...core.points import Points
+from ...grids.morphology import within_square
+from ..pipeline import PointRule, Stage
+from ..state import State
+
+
+@dataclass(frozen=True)
+class Bunds(PointRule):
+    """The points of a low, narrow strip are seeds if smooth sides lead up to it from the ground."""
+
+    # The heights of a hedge vary from point to point. At the sides of a wall, of a row of panels or
+    # of cars, points are not at all heights, or they lie on an upright face.
+
+    stage: ClassVar = Stage.SEEDS
+    writes: ClassVar = ("seeds",)
+
+    area: float = 20.0  # least area in square metres
+    height: float = 1.2  # largest median height above the ground in metres
+    width: float = 6.0  # largest width in metres
+    # Sides are what lies between these shares of the height, in classes of height of which each has
+    # at least the share `least` of their mean number of points.
+    sides: tuple[float, float] = (0.1, 0.8)
+    classes: int = 5
+    least: float = 0.4
+    share: float = 0.3  # least share of the points above the lower limit that are on the sides
+    top: float = 2.5  # metres above the ground from which on points are those of trees
+    nearest: int = 6  # number of nearest points through which a plane is laid at each point
+    # Largest median distance of the points from these planes, as a share of the height.
+    smooth: float = 0.06
+    steepest: float = 1.7  # largest median slope of these planes, rise over run
+
+    def apply(self, state: State) -> None:
+        """Add the points of banks to the seeds."""
+        banks = [
+            which[self.on_bank(state.points.take(which), above)]
+            for which, above in self._strips(state)
+        ]
+        if banks:
+            state.seeds = np.union1d(state.seeds, np.concatenate(banks))
+
+    def _strips(self, state: State) -> Iterator[tuple[np.ndarray, np.ndarray]]:
+        """Yield the points of each low, narrow strip without seeds and of the cells beside it, and
+        their heights above the surface of the seeds.
+        """
+        from scipy import ndimage
+
+        grid, points, size = state.grids[0], state.points, state.grids[0].cells.size
+        has_seed = grid.cells.holding(state.seeds)
+        raised = grid.heights.known & ~has_seed
+        number, count = ndimage.label(within_square(np.maximum, raised, 1), np.ones((3, 3)))
+        number[~raised] = 0
+        fits = np.bincount(number.ravel(), minlength=count + 1) * size**2 >= self.area
+        fits[0] = False
+        if not fits.any():
+            return
+        surface, all_of_them = grid.heights.where(has_seed).filled(), np.arange(count + 1)
+        inside = ndimage.distance_transform_cdt(np.pad(raised, 1), "chessboard")[1:-1, 1:-1]
+        fits &= 2 * size * ndimage.maximum(inside, number, all_of_them) <= self.width + size
+        above = np.where(raised, grid.heights.values - surface, 0.0)
+        fits &= ndimage.median(above, number, all_of_them) <= self.height
+        around = within_square(np.maximum, np.where(fits[number], number, 0), 1)
+        around[raised & ~fits[number]] = 0
+        which = grid.cells.points_in(around > 0)
+        strip = around.ravel()[grid.cells.index[which]]
+        which = which[np.argsort(strip, kind="stable")]
+        x, y, z = points.take(which)
+        above = z - grid.cells.interpolated(surface, x, y)
+        ends = np.cumsum(np.bincount(strip, minlength=count + 1))
+        for each in np.flatnonzero(fits):
+            part = slice(ends[each - 1], ends[each])
+            is_low = above[part] <= self.top
+            yield which[part][is_low], above[part][is_low]
+
+    def on_bank(self, points: Points, above: np.ndarray) -> np.ndarray:
+        """Return which points (n,) of a strip are smooth parts of a bank, given their heights above
+        the ground round it; none if it is no bank.
+        """
+        if len(above) < self.nearest:
+            return np.zeros(len(above), dtype=bool)
+        height = float(np.percentile(above, 95.0))
+        low, high = (share * height for share in self.sides)
+        side, none = (above > low) & (above < high), np.zeros(points.count, dtype=bool)
+        counts = np.histogram(above[side], self.classes, (low, max(high, low + 1e-9)))[0]
+        if counts.min() < max(self.least * counts.mean(), 2):
+            return none
+        if np.count_nonzero(side) < self.share * np.count_nonzero(above > low):
+            return none
+        above_plane, apart, slope = _planes(points, self.nearest)
+        is_bank = np.median(apart[side]) <= self.smooth * height
+        is_bank &= np.median(slope[side]) <= self.steepest
+        return np.abs(above_plane) <= self.smooth * height if is_bank else none
+
+
+def _planes(points: Points, count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return, for the plane through the nearest points of each point: how far the point lies above
+    it and the root mean square distance of all, in metres, and its slope, rise over run.
+    """
+    from scipy.spatial import cKDTree
+
+    places = np.column_stack(points[:2])
+    near = cKDTree(places).query(places, count)[1]
+    east, north, up = (axis[near] - axis[:, None] for axis in points)
+    design = np.stack((np.ones_like(east), east, north), axis=-1)
+    # Where points coincide, the plane is nearly level.
+    squares = np.einsum("nki,nkj->nij", design, design) + 1e-6 * np.eye(3)
+    plane = np.linalg.solve(squares, np.einsum("nki,nk->ni", design, up)[..., None])[..., 0]
+    rest = up - np.einsum("nki,ni->nk", design, plane)
+    return -plane[:, 0], np.sqrt(np.mean(rest**2, axis=1)), np.hypot(plane[:, 1], plane[:, 2])
