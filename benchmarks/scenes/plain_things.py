@@ -282,10 +282,7 @@ def layers(row: Row) -> Plain:
         -side / 2, side / 2, (2, int(side**2 * share / 100.0 * site.count / site.side**2))
     )
     low = site.land(x, y) - depth + random.normal(0.0, 0.02 * depth, len(x))
-    classes = np.append(np.full(site.count, GROUND), np.full(len(x), LOW_NOISE))
-    z = np.append(site.land(site.x, site.y), low)
-    x, y = np.append(site.x, x), np.append(site.y, y)
-    return site.plain(x, y, z, classes, classes == LOW_NOISE, site.land)
+    return _with_noise(site, x, y, low)
 
 
 def outliers(row: Row) -> Plain:
@@ -299,6 +296,11 @@ def outliers(row: Row) -> Plain:
     x, y = np.array((x, y)) + width * random.uniform(-0.5, 0.5, (2, len(x)))
     deep = np.repeat(depth * random.uniform(0.8, 1.2, 16), several)
     low = site.land(x, y) - deep + random.normal(0.0, 0.05 * width, len(x))
+    return _with_noise(site, x, y, low)
+
+
+def _with_noise(site: _Site, x: np.ndarray, y: np.ndarray, low: np.ndarray) -> Plain:
+    """Return the land with some points off it, which are the thing."""
     classes = np.append(np.full(site.count, GROUND), np.full(len(x), LOW_NOISE))
     x, y = np.append(site.x, x), np.append(site.y, y)
     z = np.append(site.land(site.x, site.y), low)

@@ -1,4 +1,4 @@
-"""Widgets of fields. Only this file and `layer_widgets.py` import qgis.gui for algorithms.
+"""Widgets of fields. Only this file and those called after a widget import qgis.gui.
 
 QGIS imports the class named in the metadata of a parameter, calls it with parameter and dialog, and
 uses the result. The model designer needs another type of widget than other dialogs.

@@ -14,6 +14,7 @@ from ...grids.morphology import closing_by_square, within_square
 from ..height_grid import HeightGrid
 from ..pipeline import PointRule, Stage, warn_of_outliers
 from ..state import State
+from .low_noise import nearest_and_apart
 
 
 @dataclass(frozen=True)
@@ -93,11 +94,8 @@ class BelowLand(PointRule):
 
     def _is_above(self, points: Points, land: np.ndarray, low: np.ndarray) -> bool:
         """Return whether points of the land lie above low points, and not beside them."""
-        from scipy.spatial import cKDTree
-
         if len(land) < 2 or not len(low):
             return False
         ground, below = (np.column_stack((points.x[some], points.y[some])) for some in (land, low))
-        tree = cKDTree(ground)
-        apart = np.median(tree.query(ground, 2)[0][:, 1])
-        return bool(np.median(tree.query(below)[0]) <= self.nearest * apart)
+        nearest, apart = nearest_and_apart(below, ground)
+        return nearest <= self.nearest * apart

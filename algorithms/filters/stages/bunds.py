@@ -9,8 +9,11 @@ import numpy as np
 
 from ...core.points import Points
 from ...grids.morphology import within_square
+from ...grids.planes import plane_slopes
 from ..pipeline import PointRule, Stage
 from ..state import State
+
+_LEAST_SQUARE = 1e-6  # added to the variances of places, in square metres
 
 
 @dataclass(frozen=True)
@@ -108,10 +111,12 @@ def _planes(points: Points, count: int) -> tuple[np.ndarray, np.ndarray, np.ndar
 
     places = np.column_stack(points[:2])
     near = cKDTree(places).query(places, count)[1]
-    east, north, up = (axis[near] - axis[:, None] for axis in points)
-    design = np.stack((np.ones_like(east), east, north), axis=-1)
+    middle = [axis[near].mean(axis=1) for axis in points]
+    x, y, z = (axis[near] - mean[:, None] for axis, mean in zip(points, middle))
     # Where points coincide, the plane is nearly level.
-    squares = np.einsum("nki,nkj->nij", design, design) + 1e-6 * np.eye(3)
-    plane = np.linalg.solve(squares, np.einsum("nki,nk->ni", design, up)[..., None])[..., 0]
-    rest = up - np.einsum("nki,ni->nk", design, plane)
-    return -plane[:, 0], np.sqrt(np.mean(rest**2, axis=1)), np.hypot(plane[:, 1], plane[:, 2])
+    moments = ((a * b).mean(axis=1) for a, b in ((x, x), (x, y), (y, y), (x, z), (y, z)))
+    xx, xy, yy, *with_z = moments
+    east, north = plane_slopes(xx + _LEAST_SQUARE, xy, yy + _LEAST_SQUARE, *with_z)
+    rest = z - x * east[:, None] - y * north[:, None]
+    above = points.z - middle[2] - (points.x - middle[0]) * east - (points.y - middle[1]) * north
+    return above, np.sqrt(np.mean(rest**2, axis=1)), np.hypot(east, north)

@@ -134,20 +134,27 @@ class LowGroups(PointRule):
         """Return whether ground points lie above a group, or a gap in height parts them; `points`
         are those near the group, `members` those of the group.
         """
-        from scipy.spatial import cKDTree
-
         places = np.column_stack(points[:2])
         low, ground = places[members], places[group.is_on_ground(points)]
         if len(ground) > 1:
-            tree = cKDTree(ground)
-            apart = np.median(tree.query(ground, 2)[0][:, 1])
+            nearest, apart = nearest_and_apart(low, ground)
             spread = np.median(np.hypot(*(low - np.median(low, axis=0)).T))
-            if spread >= self.spread * apart:
-                nearest = np.median(tree.query(low)[0])
-                if nearest <= self.nearest * apart or nearest > self.doubtful * apart:
-                    return bool(nearest <= self.nearest * apart)
+            is_doubtful = self.nearest * apart < nearest <= self.doubtful * apart
+            if spread >= self.spread * apart and not is_doubtful:
+                return nearest <= self.nearest * apart
         below = np.sort(np.append(group.above(points)[members], 0.0))
         return bool(np.diff(below).max() >= self.gap * -below[0])
+
+
+def nearest_and_apart(low: np.ndarray, ground: np.ndarray) -> tuple[float, float]:
+    """Return the median distances of low places (n, 2) from the nearest of the ground, at least
+    two, and of these from each other.
+    """
+    from scipy.spatial import cKDTree
+
+    tree = cKDTree(ground)
+    apart = float(np.median(tree.query(ground, 2)[0][:, 1]))
+    return float(np.median(tree.query(low)[0])), apart
 
 
 class Group(NamedTuple):
