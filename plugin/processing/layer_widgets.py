@@ -16,7 +16,6 @@ from qgis.core import (
 from qgis.gui import (
     QgsAbstractProcessingParameterWidgetWrapper,
     QgsMapLayerComboBox,
-    QgsProcessingGui,
     QgsProcessingMapLayerComboBox,
     QgsProcessingParameterWidgetContext,
 )
@@ -29,7 +28,7 @@ from ..i18n import tr
 from ..styles.loaded import file_of, sources_of
 from .remote import ADDRESS, PART, REMOTE, extent_of_map
 from .runs import MADE_AS, made_last
-from .widgets import designer_widget, is_designer, kind, usual_widget
+from .widgets import is_designer, own_widget
 
 
 class PointCloudWidget:
@@ -43,14 +42,11 @@ class PointCloudWidget:
         cls, parameter: QgsProcessingParameterDefinition, dialog: QWidget, *_: object
     ) -> Any:
         """Return a widget, not an instance of this class."""
-        if kind(dialog) == QgsProcessingGui.WidgetType.Standard and not is_designer(dialog):
-            return _CloudBox(parameter, kind(dialog), dialog)
-        if not is_designer(dialog):
-            return usual_widget(parameter, dialog)
-        widget = designer_widget(parameter, dialog)
-        # Adds inputs that are files or texts; outputs that are files are already in the list.
-        kinds = QgsProcessingParameterFile, QgsProcessingParameterString
-        widget.populateSources([kind.typeName() for kind in kinds], [], [])
+        widget = own_widget(_CloudBox, parameter, dialog)
+        if is_designer(dialog):
+            # Adds inputs that are files or texts; outputs that are files are already in the list.
+            kinds = QgsProcessingParameterFile, QgsProcessingParameterString
+            widget.populateSources([kind.typeName() for kind in kinds], [], [])
         return widget
 
 
@@ -61,11 +57,7 @@ class RasterWidget:
         cls, parameter: QgsProcessingParameterDefinition, dialog: QWidget, *_: object
     ) -> Any:
         """Return a widget, not an instance of this class."""
-        if is_designer(dialog):
-            return designer_widget(parameter, dialog)
-        if kind(dialog) == QgsProcessingGui.WidgetType.Standard:
-            return _LayerBox(parameter, kind(dialog), dialog)
-        return usual_widget(parameter, dialog)
+        return own_widget(_LayerBox, parameter, dialog)
 
 
 class _LayerBox(QgsAbstractProcessingParameterWidgetWrapper):

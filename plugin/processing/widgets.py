@@ -57,11 +57,7 @@ class CheckWidget:
         cls, parameter: QgsProcessingParameterDefinition, dialog: QWidget, *_: object
     ) -> Any:
         """Return a widget, not an instance of this class."""
-        if is_designer(dialog):
-            return designer_widget(parameter, dialog)
-        if kind(dialog) == QgsProcessingGui.WidgetType.Standard:
-            return _CheckBox(parameter, kind(dialog), dialog)
-        return usual_widget(parameter, dialog)
+        return own_widget(_CheckBox, parameter, dialog)
 
 
 def is_designer(dialog: QWidget) -> bool:
@@ -73,6 +69,15 @@ def kind(dialog: QWidget) -> QgsProcessingGui.WidgetType:
     """Return the kind of the widgets of a dialog that is not the designer."""
     is_batch = type(dialog).__name__.startswith("Batch")
     return QgsProcessingGui.WidgetType.Batch if is_batch else QgsProcessingGui.WidgetType.Standard
+
+
+def own_widget(box: type, parameter: QgsProcessingParameterDefinition, dialog: QWidget) -> Any:
+    """Return a box of ours in a dialog for one run, and the widget of QGIS in others."""
+    if is_designer(dialog):
+        return designer_widget(parameter, dialog)
+    if kind(dialog) == QgsProcessingGui.WidgetType.Standard:
+        return box(parameter, kind(dialog), dialog)
+    return usual_widget(parameter, dialog)
 
 
 def usual_widget(
