@@ -48,7 +48,11 @@ class Bunds(PointRule):
             for which, above in self._strips(state)
         ]
         if banks:
-            state.seeds = np.union1d(state.seeds, np.concatenate(banks))
+            # `numpy.union1d` takes a hundred times as long.
+            seeds = np.zeros(state.points.count, dtype=bool)
+            for some in (state.seeds, *banks):
+                seeds[some] = True
+            state.seeds = np.flatnonzero(seeds)
 
     def _strips(self, state: State) -> Iterator[tuple[np.ndarray, np.ndarray]]:
         """Yield the points of each low, narrow strip without seeds and of the cells beside it, and
