@@ -55,7 +55,9 @@ def test_points_are_seen_at_once_at_a_small_scale(tmp_path, context):
     clouds = [layer for layer in root.layerOrder() if isinstance(layer, QgsPointCloudLayer)]
     names = [cloud.name() for cloud in clouds]
     assert names == (
-        ["Classes"] if compat.SHOWS_OVERVIEWS else ["Classes", "Overview of the classes"]
+        ["in: Classes"]
+        if compat.SHOWS_OVERVIEWS
+        else ["in: Classes", "in: Overview of the classes"]
     )
     assert all(root.findLayer(cloud).isVisible() for cloud in clouds)
     # Only the classes that are there.
