@@ -10,7 +10,7 @@ from qgis.PyQt.QtWidgets import QComboBox, QWidget
 
 from .. import compat
 from .checkpoints import names_in
-from .widgets import designer_widget, is_designer, kind
+from .widgets import designer_widget, is_designer, keep, kind
 
 
 class AttributeWidget:
@@ -33,7 +33,7 @@ class _AttributeBox(QgsAbstractProcessingParameterWidgetWrapper):
 
     def createWidget(self) -> QWidget:
         """Return the box, which is empty."""
-        box = QComboBox()
+        box = keep(QComboBox())
         box.setEditable(True)
         box.setInsertPolicy(QComboBox.InsertPolicy.NoInsert)
         box.editTextChanged.connect(lambda _: self.widgetValueHasChanged.emit(self))

@@ -28,7 +28,7 @@ from ..i18n import tr
 from ..styles.loaded import file_of, sources_of
 from .remote import ADDRESS, PART, REMOTE, extent_of_map
 from .runs import MADE_AS, made_last
-from .widgets import is_designer, own_widget
+from .widgets import is_designer, keep, own_widget
 
 
 class PointCloudWidget:
@@ -68,7 +68,7 @@ class _LayerBox(QgsAbstractProcessingParameterWidgetWrapper):
         return self._new_box()
 
     def _new_box(self) -> QgsProcessingMapLayerComboBox:
-        box = QgsProcessingMapLayerComboBox(self.parameterDefinition(), self.type())
+        box = keep(QgsProcessingMapLayerComboBox(self.parameterDefinition(), self.type()))
         box.setWidgetContext(self.widgetContext())
         self._suggested: str | None = None
         box.valueChanged.connect(lambda: self.widgetValueHasChanged.emit(self))

@@ -6,7 +6,7 @@ uses the result. The model designer needs another type of widget than other dial
 
 from __future__ import annotations
 
-from typing import Any, Iterable
+from typing import Any, Iterable, TypeVar
 
 from qgis.core import (
     QgsProcessingContext,
@@ -35,6 +35,8 @@ _LEAST_LETTERS = 16
 # Values of Qt.CheckState in items. The names do not work in the same way in PyQt 5 and 6.
 _UNCHECKED = 0
 _CHECKED = 2
+
+Widget = TypeVar("Widget", bound=QWidget)
 
 
 class ChoiceWidget:
@@ -90,9 +92,17 @@ def usual_widget(
     return widget
 
 
+def keep(widget: Widget) -> Widget:
+    """Keep the Python half of a new widget for as long as Qt has the widget."""
+    # QGIS gives the widget that `createWidget` returned a second Python half, and Python frees the
+    # first one. Qt still points to it: to delete the widget would write into freed memory.
+    widget.destroyed.connect(lambda _, widget=widget: None)
+    return widget
+
+
 def _label_of(parameter: QgsProcessingParameterDefinition) -> QLabel:
     """Return a label without "[optional]", since a box with choices has always a value."""
-    label = QLabel(parameter.description())
+    label = keep(QLabel(parameter.description()))
     label.setToolTip(parameter.toolTip())
     return label
 
@@ -118,7 +128,7 @@ class _CheckBox(QgsAbstractProcessingParameterWidgetWrapper):
     def createWidget(self) -> QWidget:
         """Return the box, checked if the default is true."""
         parameter = self.parameterDefinition()
-        box = QCheckBox(parameter.description())
+        box = keep(QCheckBox(parameter.description()))
         box.setToolTip(parameter.toolTip())
         box.setChecked(bool(parameter.defaultValue()))
         box.toggled.connect(lambda _: self.widgetValueHasChanged.emit(self))
@@ -158,7 +168,7 @@ class _ChoiceBox(_LabelledBox):
     def createWidget(self) -> QWidget:
         """Return the box, with the default chosen."""
         parameter = self.parameterDefinition()
-        box = _narrow(QComboBox())
+        box = _narrow(keep(QComboBox()))
         if label := parameter.metadata().get(NO_CHOICE):
             box.addItem(label, None)
         for label, value in zip(parameter.metadata()[LABELS], parameter.options()):
@@ -221,7 +231,7 @@ class _ChoicesBox(_LabelledBox):
     def createWidget(self) -> QWidget:
         """Return the box, with the defaults chosen."""
         parameter = self.parameterDefinition()
-        box = _narrow(QgsCheckableComboBox())
+        box = _narrow(keep(QgsCheckableComboBox()))
         # Not a comma, which labels contain.
         box.setSeparator("; ")
         for label, value in zip(parameter.metadata()[LABELS], parameter.options()):
