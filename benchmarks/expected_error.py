@@ -37,17 +37,16 @@ from bare_earth.algorithms.grids.expected_error import (
     evidence,
     expected_error,
     share_over,
-    spread_of,
 )
 from bare_earth.algorithms.las.cloud import PointCloud
 from bare_earth.algorithms.report.units import Units
 from bare_earth.algorithms.tin.dense_surface import DenseSurface
 from bare_earth.algorithms.tin.surface import Surface
-from bare_earth.algorithms.tools.ground.looks import looks_of
 from bare_earth.algorithms.tools.review.places import Rasters, Review, places_of
 
 from . import data, marked
 from .clouds import classify_cloud
+from .ensemble import further_members, spread_of
 from .measure import GROUND, Filter
 from .phases import shifted
 from .work import side_by_side
@@ -74,7 +73,7 @@ _BEND = 0.1
 # how much that weighs: some thirty tiles are few for as many numbers. Both were chosen by the AUC
 # on tiles that were not fitted.
 _PRIOR, _RIDGE = 0.15, 0.05
-# The spreads of several looks in metres at which factors are fitted.
+# The spreads of an ensemble in metres at which factors are fitted.
 SPREADS = (0.0, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0)
 PAGE = Path(__file__).parent / "results" / "expected_error.md"
 _HELD_HEAD = (
@@ -93,7 +92,7 @@ class Seen(NamedTuple):
     error: np.ndarray  # metres, positive
     slope: np.ndarray  # rise over run of the true terrain
     density: np.ndarray  # points in a square metre, in the tile
-    # standard deviation of the terrains of several looks, in metres; None for one look
+    # standard deviation of the terrains of an ensemble, in metres; None for one filter
     spread: np.ndarray | None = None
 
 
@@ -122,8 +121,8 @@ class Tile(NamedTuple):
         return Filter(method).ground(self.cloud)[self.takes_part]
 
     def further_grounds(self, method: str) -> Iterator[np.ndarray]:
-        """Yield the same for the looks beside that of a filter."""
-        for one in looks_of(Filter(method).parameters):
+        """Yield the same for the other members of an ensemble."""
+        for one in further_members(Filter(method).parameters):
             cloud = shifted(self.cloud, *one.shift)
             try:
                 yield (classify_cloud(cloud, one.parameters)[0] == GROUND)[self.takes_part]
@@ -154,7 +153,7 @@ def tiles() -> list[Path]:
 
 def look(path: Path, several: bool = False) -> list[Seen]:
     """Run each filter on a tile, and compare its terrain with that of the reference; `several`:
-    with the spread of several looks.
+    with the spread of an ensemble.
     """
     tile, results = Tile.of(path), []
     for method in METHODS:
@@ -188,7 +187,7 @@ def compared(
     tile : str
         Its name.
     grounds : sequence of numpy.ndarray of bool, shape (n,)
-        The same of several looks, of which the first is `ground`.
+        The masks of an ensemble; the first is `ground`.
     """
     cells = Cells.over(points, CELL)
     random, count = np.random.default_rng(zlib.crc32(tile.encode())), cells.rows * cells.columns
@@ -317,16 +316,16 @@ def _climbed(values: np.ndarray, knots: Sequence[float]) -> np.ndarray:
 def spread_factors(
     seen: Sequence[Seen], expected: Sequence[np.ndarray]
 ) -> tuple[tuple[float, float], ...]:
-    """Return the factors by which the expected error of one look changes with the spread."""
+    """Return the factors by which the expected error of one filter changes with the spread."""
     wanted, share = _wanted(seen)
     design = np.concatenate([_climbed(_spread(one), SPREADS) for one in seen])
     best = _quantiles(design, wanted - np.log(np.concatenate(expected)), share)
     return _factors(SPREADS, best[1:], float(best[0]))
 
 
-def with_looks(seen: Sequence[Seen], expected: Sequence[np.ndarray]) -> list[np.ndarray]:
-    """Return the errors that several looks expect, given those of one, by factors that were fitted
-    to the other half of the tiles.
+def with_ensemble(seen: Sequence[Seen], expected: Sequence[np.ndarray]) -> list[np.ndarray]:
+    """Return the errors that an ensemble expects, given those of one filter, by factors that were
+    fitted to the other half of the tiles.
     """
     half, results = _halves(seen), []
     tables = [
@@ -340,7 +339,7 @@ def with_looks(seen: Sequence[Seen], expected: Sequence[np.ndarray]) -> list[np.
 
 
 def _spread(seen: Seen) -> np.ndarray:
-    """Return the spread of several looks, at most the largest that is fitted."""
+    """Return the spread of an ensemble, at most the largest that is fitted."""
     values = np.zeros(len(seen.error)) if seen.spread is None else seen.spread
     return np.minimum(values, SPREADS[-1])
 
@@ -443,7 +442,7 @@ def main() -> None:
     """Print the tables by halves; with ``--fit`` also the factors fitted to all tiles."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--fit", action="store_true", help="print the factors fitted to all tiles")
-    parser.add_argument("--looks", action="store_true", help="with the spread of several looks")
+    parser.add_argument("--ensemble", action="store_true", help="with the spread of five runs")
     parser.add_argument("--places", action="store_true", help="only what places to review hold")
     parser.add_argument("--tiles", nargs="+", help="only these, by their names without ending")
     parser.add_argument("--write", action="store_true", help="write results/expected_error.md")
@@ -458,7 +457,7 @@ def main() -> None:
         if chosen.write:
             marked.fill(PAGE, "places", lines)
         return
-    results = side_by_side(functools.partial(look, several=chosen.looks), places)
+    results = side_by_side(functools.partial(look, several=chosen.ensemble), places)
     seen = [one for some in results for one in some]
     expected = crossed(seen)
     scores = [score(one.error, values) for one, values in zip(seen, expected)]
@@ -469,11 +468,11 @@ def main() -> None:
     print(f"\nRMSE in relation to what is expected: {_middle([s.rmse for s in scores])}")
     over = np.array([s.over for s in scores])
     print(f"share over {LIMIT} m, expected and as it is: {over.mean(axis=0).round(4)}")
-    if chosen.looks:
-        print(f"\nWith several looks:\n\n{table(seen, with_looks(seen, expected))}")
+    if chosen.ensemble:
+        print(f"\nWith an ensemble of five runs:\n\n{table(seen, with_ensemble(seen, expected))}")
     if chosen.fit:
         print(fitted(seen))
-        if chosen.looks:
+        if chosen.ensemble:
             print(spread_factors(seen, [error_of(one.pieces) for one in seen]))
     else:
         shipped = [error_of(one.pieces, FACTORS, LEAST) for one in seen]

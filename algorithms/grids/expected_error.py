@@ -8,7 +8,7 @@ lie within what is expected; docs/check.md has the figures.
 
 from __future__ import annotations
 
-from typing import Iterator, Mapping, NamedTuple, Sequence
+from typing import Iterator, Mapping, NamedTuple
 
 import numpy as np
 
@@ -30,7 +30,7 @@ _DOUBTFUL_HEIGHT = 1.0
 # Heights in metres above the ground between which points that are not ground are low plants: the
 # ground may be too high there.
 _LOW_PLANTS = (0.1, 0.3)
-_RELAXATIONS = 2
+RELAXATIONS = 2
 _ROUGHEST = 2.0  # largest roughness that counts in metres
 _STEEPEST = 8.0  # steepest rise over run that counts
 _TINY = 1e-6
@@ -77,14 +77,6 @@ _USUAL = (1.25, 1.74, 1.22, 1.1, 1.14, 1.16, 1.11)
 # of the RMSE of a tile to the root mean square of its expected errors.
 SHAPE = 0.4
 RMSE_SHARE = 0.35
-# The number of looks at the ground, by different methods and parameters, if there are several.
-LOOKS = 5
-# Standard deviations in metres of the terrains of several looks, and the factors by which the
-# expected error of one look is multiplied then.
-SPREAD_FACTORS = (
-    (0.0, 0.846), (0.01, 0.983), (0.02, 1.13), (0.05, 1.3),
-    (0.1, 1.5), (0.2, 1.77), (0.5, 2.11), (1.0, 2.5), (2.0, 2.96),
-)  # fmt: skip
 LARGE = 0.3  # metres from which on an expected error is reported as large
 BEYOND = 0.05  # share of the errors that are larger than the expected one
 
@@ -131,47 +123,6 @@ def _logarithms(pieces: Evidence, factors: Table) -> Iterator[np.ndarray]:
     for name, values in pieces._asdict().items():
         start, factor = np.array(factors[name]).T
         yield np.interp(values, start, np.log(factor)).astype(np.float32)
-
-
-def factor_of_looks(
-    cells: Cells,
-    z: np.ndarray,
-    grounds: Sequence[np.ndarray],
-    rows: np.ndarray,
-    columns: np.ndarray,
-) -> np.ndarray:
-    """Return the factors, float32, by which the grounds of several looks change the expected error
-    of one look, for rows and columns as in `evidence`.
-    """
-    start, factor = np.array(SPREAD_FACTORS).T
-    spread = spread_of(cells, z, grounds, rows, columns)
-    return np.exp(np.interp(spread, start, np.log(factor))).astype(np.float32)
-
-
-def spread_of(
-    cells: Cells,
-    z: np.ndarray,
-    grounds: Sequence[np.ndarray],
-    rows: np.ndarray,
-    columns: np.ndarray,
-) -> np.ndarray:
-    """Return the standard deviation in metres of the terrains of several grounds, float32, for rows
-    and columns as in `evidence`; infinite if one of them has no point.
-    """
-    total, squares = np.zeros((2, len(rows), len(columns)), dtype=np.float64)
-    first = None
-    for ground in grounds:
-        if not ground.any():
-            return np.full(total.shape, np.inf, dtype=np.float32)
-        heights = cells.minimum(z, np.flatnonzero(ground))
-        surface = inpaint(heights, _RELAXATIONS, cells.first)
-        values = surface.take(rows, axis=0).take(columns, axis=1).astype(np.float64)
-        first = values if first is None else first
-        total += values - first
-        squares += (values - first) ** 2
-    count = len(grounds)
-    variance = squares / count - (total / count) ** 2
-    return np.sqrt(np.maximum(variance, 0.0)).astype(np.float32)
 
 
 def share_over(limit: float, error: np.ndarray) -> np.ndarray:
@@ -233,7 +184,7 @@ def evidence(
         return Evidence(far, nothing, nothing, far, nothing, nothing, nothing)
     lowest, heights = cells.minimum(z), cells.minimum(z, np.flatnonzero(ground))
     occupied, has_ground = np.isfinite(lowest), np.isfinite(heights)
-    surface = inpaint(heights, _RELAXATIONS, cells.first).astype(np.float32)
+    surface = inpaint(heights, RELAXATIONS, cells.first).astype(np.float32)
     doubtful = occupied & ~has_ground & (lowest - surface < _DOUBTFUL_HEIGHT)
     low_plants = _low_plants(cells, z, ground, surface)
     gap = (_distances(has_ground, rows, columns) * cells.size).astype(np.float32)

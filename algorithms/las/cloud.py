@@ -54,8 +54,6 @@ class PointCloud:
     # uint16 (n,), flight strips (point source ids; where these are 0, that of the file), if read.
     strip: np.ndarray | None = None
     synthetic: np.ndarray | None = None  # bool (n,), points made and not measured, if it was read
-    # uint8 (n,): bits of the looks in which points are ground, if there were several.
-    looks: np.ndarray | None = None
     number: np.ndarray | None = None  # int64 (n,), places in the file from 0 on, if asked for
     records: np.ndarray | None = None  # uint8 (n, record length), if they were kept for writing
     file: LasFile | None = None

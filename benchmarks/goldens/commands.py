@@ -46,11 +46,7 @@ COMMANDS = {
     " --ground-only --method slope",
     "classify/old": "classify old.las OUT/a.laz --crs EPSG:25832 --from-classes all --json",
     "classify/out-of-core": "classify raw.laz OUT/a.laz --memory 0.001 --dtm OUT/dtm.tif",
-    "classify/looks": "classify raw.laz OUT/a.laz --method slope --looks 5 --expected-error"
-    " OUT/error.tif --error-cause OUT/cause.tif",
     # Many files.
-    "classify/survey-looks": "classify raw OUT/tiles --method slope --looks 5 --expected-error"
-    " OUT/error.tif",
     "classify/survey-tin": f"classify raw OUT/tiles --dtm OUT/dtm.tif {_ALL_CLASSES} {_POINTS}"
     " asprs --format copc.laz --overview --json",
     "classify/survey-slope": f"classify raw OUT/tiles --method slope {_POINTS} ign --vpc"

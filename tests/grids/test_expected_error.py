@@ -3,10 +3,7 @@
 import numpy as np
 import pytest
 from matrices import quick
-from surveys import classes_of, cut, heights_of, write
 
-import bare_earth
-from bare_earth import BareEarthError
 from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.grids.cells import Cells
@@ -19,11 +16,10 @@ from bare_earth.algorithms.grids.expected_error import (
     expected_error,
     expected_rmse,
     share_over,
-    spread_of,
 )
-from bare_earth.algorithms.tools.ground.looks import looks_of
 from benchmarks.clouds import classify_cloud
-from benchmarks.expected_error import Seen, auc, compared, fitted, score, with_looks
+from benchmarks.ensemble import further_members, spread_of
+from benchmarks.expected_error import Seen, auc, compared, fitted, score, with_ensemble
 from benchmarks.scenes import make
 
 HOUSE = (40.0, 60.0)
@@ -169,69 +165,23 @@ def test_the_spread_is_the_standard_deviation_of_the_terrains():
     row, column = np.indices(cells.shape)
     (low, high), open_land = HOUSE, (row < HOUSE[0] - 5) & (column < 70)
     house = (row > low) & (row < high - 1) & (column > low) & (column < high - 1)
-    # In one of three looks the house of 6 m is ground.
+    # In one of three runs the house of 6 m is ground.
     np.testing.assert_allclose(spread[house], np.std([0.0, 0.0, 6.0]), atol=0.1)
     assert spread[open_land].max() == 0.0
     nowhere = [*grounds, np.zeros(points.count, dtype=bool)]
     assert np.isinf(spread_of(cells, points.z, nowhere, *every)).all()
 
 
-@pytest.fixture(scope="module")
-def looked_at(tmp_path_factory):
-    """A file, the same points in several files, and what one look makes of the file."""
-    folder = tmp_path_factory.mktemp("looks")
-    scene = make("open_forest", seed=7, size=60.0, density=3.0)
-    integers = np.round(np.column_stack(scene.points) * 100).astype(int)
-    one, many = write(folder / "one.laz", integers), cut(folder / "many", integers, 4)
-    out, error = folder / "out.laz", folder / "error.tif"
-    bare_earth.classify(one, out, method="slope", expected_error=error)
-    return one, many, out, error
-
-
-@pytest.fixture(scope="module")
-def several(looked_at):
-    """What five looks make of the file."""
-    one, _, usual, _ = looked_at
-    out, error, cause = (usual.with_name(f"several.{kind}") for kind in ("laz", "tif", "cause.tif"))
-    bare_earth.classify(one, out, method="slope", looks=5, expected_error=error, error_cause=cause)
-    return out, error
-
-
-@pytest.mark.rest
-def test_several_looks_change_only_the_expected_error(looked_at, several):
-    (_, _, usual, error), (out, other) = looked_at, several
-    np.testing.assert_array_equal(classes_of(out), classes_of(usual))
-    factors = heights_of(other) / heights_of(error)
-    known = np.isfinite(factors)
-    assert (np.isfinite(heights_of(error)) == known).all()
-    assert factors[known].min() < 1.0 < 1.3 < factors[known].max()
-
-
-@pytest.mark.rest
-def test_several_looks_at_many_files_equal_those_at_one(looked_at, several, tmp_path):
-    many, error = looked_at[1], tmp_path / "error.tif"
-    bare_earth.classify(many, tmp_path / "many", method="slope", looks="5", expected_error=error)
-    np.testing.assert_array_equal(heights_of(error), heights_of(several[1]))
-
-
-@pytest.mark.rest
-def test_several_looks_need_an_expected_error(looked_at, tmp_path):
-    with pytest.raises(BareEarthError, match="Make its raster, or look once"):
-        bare_earth.classify(looked_at[0], tmp_path / "a.laz", looks=5)
-    with pytest.raises(BareEarthError, match="must be one of 1, 5, not 3"):
-        bare_earth.classify(looked_at[0], tmp_path / "a.laz", looks=3)
-
-
-def test_the_filters_of_all_looks_have_the_preset():
+def test_all_members_of_an_ensemble_have_the_preset():
     parameters = METHODS["slope"].parameters(preset="site", ground_tolerance=0.4)
-    looks = list(looks_of(parameters))
-    assert [look.parameters.preset for look in looks] == ["site"] * 4
-    assert {look.parameters.ground_tolerance for look in looks} == {0.4}
+    members = list(further_members(parameters))
+    assert [one.parameters.preset for one in members] == ["site"] * 4
+    assert {one.parameters.ground_tolerance for one in members} == {0.4}
     classic = METHODS["slope"].parameters(preset="whitebox")
-    assert [look.parameters.preset for look in looks_of(classic)][2:] == ["automatic"] * 2
+    assert [one.parameters.preset for one in further_members(classic)][2:] == ["automatic"] * 2
 
 
-def test_the_fit_of_looks_finds_that_spread_tells_the_error():
+def test_the_fit_of_an_ensemble_finds_that_spread_tells_the_error():
     random = np.random.default_rng(3)
     nothing = Evidence(*np.zeros((7, 4000), dtype=np.float32))
     seen = []
@@ -240,7 +190,7 @@ def test_the_fit_of_looks_finds_that_spread_tells_the_error():
         error = np.abs(random.normal(0, 0.05 + spread))
         seen.append(Seen(name, "", nothing, error, spread, spread, spread))
     one = [np.full(4000, 1.0)] * 4
-    several = with_looks(seen, one)
+    several = with_ensemble(seen, one)
     for found, before, after in zip(seen, one, several):
         usual, better = score(found.error, before), score(found.error, after)
         assert usual.auc == 0.5 < 0.7 < better.auc and 0.92 < better.inside < 0.98

@@ -5,7 +5,7 @@ from __future__ import annotations
 import collections
 from enum import IntEnum
 from functools import partial
-from typing import Callable, Sequence
+from typing import Callable
 
 import numpy as np
 
@@ -28,7 +28,6 @@ from ...grids.high_groups import HighGroups
 from ...grids.parts import apart
 from ...las.return_numbers import MULTI_RETURN
 from .explanation import ExplainedCells
-from .looks import Look, label_of, with_looks
 
 # Shares of the time of a block for finding bridges, and low outliers.
 _BRIDGES_SHARE = 0.15
@@ -70,11 +69,10 @@ def labelled(
     parameters: ParameterSet,
     selection: Selection,
     explains: bool,
-    looks: Sequence[Look],
     progress: Progress,
 ) -> tuple[np.ndarray, np.ndarray, BlockMessages, ExplainedCells | None]:
-    """Return the positions of the points of a block, their `Label` or 0, with the bits of other
-    looks, the messages, and the cells of the deciding rules, if it `explains`.
+    """Return the positions of the points of a block, their `Label` or 0, the messages, and the
+    cells of the deciding rules, if it `explains`.
     """
     west, south, east, north = (
         side - start for side, start in zip(visit.block.box, visit.corner * 2)
@@ -88,7 +86,7 @@ def labelled(
     notes = BlockMessages(progress.part(0.15, 1.0), len(positions), visit.is_only)
     labels, cells = np.zeros(len(positions), dtype=np.uint8), None
     if notes.count:
-        label = partial(_label, parameters, selection, explains, looks, box)
+        label = partial(_label, parameters, selection, explains, box)
         try:
             found, decided = _labels(contents, core, label, visit.blocks.buffer, notes)
             if TO_CONTINUE in contents.flags:
@@ -108,7 +106,6 @@ def _label(
     parameters: ParameterSet,
     selection: Selection,
     explains: bool,
-    looks: Sequence[Look],
     box: Box,
     contents: BlockPoints,
     progress: Progress,
@@ -147,9 +144,6 @@ def _label(
     if selection.high_noise_class:
         high = HighGroups(height=selection.high_noise_height).find(points)
         labels[high & (labels == 0)] = Label.HIGH
-    if looks:
-        multi = contents.flags[MULTI_RETURN]
-        labels = with_looks(labels, (_seen(look, points, box, known, multi) for look in looks))
     return labels, decided
 
 
@@ -157,20 +151,10 @@ def _continue(contents: BlockPoints, core: np.ndarray, labels: np.ndarray) -> in
     """Label the points that continue the ground in places where a person saw ground; return how
     many of them lie in the core.
     """
-    names = label_of(labels)
-    inside = contents.flags[TO_CONTINUE] & contents.wanted & (names == 0)
-    more = continued_ground(contents.points, names == Label.GROUND, inside)
-    labels[more] |= np.uint8(Label.GROUND)
+    inside = contents.flags[TO_CONTINUE] & contents.wanted & (labels == 0)
+    more = continued_ground(contents.points, labels == Label.GROUND, inside)
+    labels[more] = Label.GROUND
     return int(np.count_nonzero(more & core))
-
-
-def _seen(look: Look, points: Points, box: Box, known: np.ndarray, multi: np.ndarray) -> np.ndarray:
-    """Return the points that are ground in another look, and those that are known ground."""
-    moved = look.moved(points)
-    if moved is not points:
-        (west, south, east, north), (right, up) = box, look.shift
-        tell_spacing(moved, (west + right, south + up, east + right, north + up))
-    return look.ground(moved, known, multi) | known
 
 
 def _labels(

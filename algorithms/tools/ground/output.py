@@ -34,17 +34,6 @@ class Output(ParameterSet):
         " ground, in the vertical unit of the CRS.",
     )
 
-    looks: str = parameter(
-        "1",
-        label="Looks at the ground",
-        choices={"1": "One", "5": "Five, for the expected error"},
-        advanced=True,
-        help="Five looks make the expected error of the terrain model more certain: the filter"
-        " runs twice more with other cells, and the two other filters run as well. Where they"
-        " differ, the error is larger. The classes are those of one look. The filter takes about"
-        " five times as long.",
-    )
-
     @property
     def changes_points(self) -> bool:
         """Whether more than the classes changes."""

@@ -41,7 +41,6 @@ from .labelling import (
     tell,
     tell_of_continued,
 )
-from .looks import Look, label_of, looks_in, looks_of
 from .output import Output
 from .summary import Summary, tell_of_groundless_files
 
@@ -76,11 +75,6 @@ class LabelGround(PointStep):
         return PointChooser(self.selection, self.area, reach, self.corrections)
 
     @property
-    def _looks(self) -> tuple[Look, ...]:
-        """The looks beside that of the filter."""
-        return () if self.output.looks == "1" else tuple(looks_of(self.parameters))
-
-    @property
     def only_classes(self) -> bool:
         """Whether the output differs only in its classes."""
         return not (self.output.changes_points or self.selection.remember_classes)
@@ -105,14 +99,11 @@ class LabelGround(PointStep):
         """Return points with their new classes, given those that change, and those set by hand; if
         only the area is written, the others become withheld.
         """
-        labels = label_of(values)
-        ground, low, decks, high = (labels == label for label in Label)
+        ground, low, decks, high = (values == label for label in Label)
         classes = self.selection.classes(part, ground, low, inside, decks, by_hand, high)
         part = with_classes(part, classes, self.selection.remember_classes)
         if self.output.area_only:
             part = dataclasses.replace(part, withheld=part.withheld | ~inside)
-        if self.output.looks != "1":
-            part = dataclasses.replace(part, looks=looks_in(values, Label.GROUND))
         return part
 
     def tell(self, counts: PointCounts, path: Path, progress: Progress) -> None:
@@ -182,7 +173,7 @@ class LabelGround(PointStep):
     def in_block(self, visit: Visit, progress: Progress) -> tuple[Any, ...]:
         """Label the points of a block; see `labelled`."""
         explains = self.explain is not None
-        return labelled(visit, self.parameters, self.selection, explains, self._looks, progress)
+        return labelled(visit, self.parameters, self.selection, explains, progress)
 
     def end(
         self, store: Store, results: Sequence[tuple[Block, Any]], progress: Progress
@@ -253,15 +244,14 @@ class ClassifiedPoints(PointResult):
             if self._step.output.ground_only:
                 self.kept[where] &= ground
         self._lifts.see(after, ground)
-        labels = label_of(values)
-        self._has_ground |= bool(((labels == Label.GROUND) & inside).any())
+        self._has_ground |= bool(((values == Label.GROUND) & inside).any())
         if by_hand is not None:
             self._by_hand_count += int(np.count_nonzero(by_hand.known & inside))
         self._ground_count += int(np.count_nonzero(ground))
         self._area_ground_count += int(np.count_nonzero(ground & inside))
-        self._low_count += int(np.count_nonzero((labels == Label.LOW) & inside))
-        self._deck_count += int(np.count_nonzero((labels == Label.BRIDGE) & inside))
-        self._high_count += int(np.count_nonzero((labels == Label.HIGH) & inside))
+        self._low_count += int(np.count_nonzero((values == Label.LOW) & inside))
+        self._deck_count += int(np.count_nonzero((values == Label.BRIDGE) & inside))
+        self._high_count += int(np.count_nonzero((values == Label.HIGH) & inside))
 
     @property
     def is_empty(self) -> bool:

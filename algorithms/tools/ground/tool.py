@@ -85,11 +85,6 @@ def _check(
         raise BareEarthError(
             "Classes above the ground need all points. Write all points, not only the ground."
         )
-    if written.looks != "1" and "expected_error" not in rasters.files.layers:
-        raise BareEarthError(
-            "Several looks at the ground make only the expected error more certain. Make its"
-            " raster, or look once."
-        )
     if rasters.constraints.any and not rasters.files.wanted:
         raise BareEarthError(
             "Breaklines, water, rivers and places without ground only change rasters. Choose a"

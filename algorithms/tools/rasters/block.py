@@ -13,7 +13,7 @@ from ...core.progress import SILENT, Progress
 from ...core.threads import over_parts
 from ...grids.cell_window import CellWindow
 from ...grids.cells import Cells, are_inside
-from ...grids.expected_error import CELL, causes_of, error_of, evidence, factor_of_looks
+from ...grids.expected_error import CELL, causes_of, error_of, evidence
 from ...grids.morphology import within_square
 from ...tin.dense_surface import DenseSurface
 from .block_view import BlockView, LayerCells, LayerSizes, Made
@@ -180,8 +180,6 @@ def _errors(
     pieces = evidence(cells, view.points.z, view.ground, rows, columns)
     for name, values in found.items():
         of_cells = _OF_EVIDENCE[name](pieces)
-        if view.looks and name == "expected_error":
-            of_cells *= factor_of_looks(cells, view.points.z, view.looks, rows, columns)
         values[np.ix_(*inside)] = of_cells[np.ix_(of_rows, of_columns)]
     return found, {}
 

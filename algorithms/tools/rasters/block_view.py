@@ -54,7 +54,6 @@ class BlockView(NamedTuple):
     # the ground as another step has thinned it, and which of its points lie in the block
     thinned: tuple[LatticeSample, np.ndarray] | None = None
     lacks_ground: bool = False  # that ground is not among the points
-    looks: tuple[np.ndarray, ...] = ()  # bool, (n,): the ground of several looks, if there were any
 
     @property
     def parts(self) -> list[tuple[Points, np.ndarray, np.ndarray, np.ndarray]]:

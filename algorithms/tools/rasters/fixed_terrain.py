@@ -65,10 +65,7 @@ class FixedTerrain:
         are_edges[points.count : points.count + len(edges)] = True
         together = Points(*(np.concatenate(columns) for columns in zip(points, new.T)))
         top, core = longer(view.top), longer(view.core)
-        looks = tuple(longer(look & (stays | ~view.ground), True) for look in view.looks)
-        return BlockView(
-            together, longer(stays, True), top, core, view.corner, are_edges, looks=looks
-        )
+        return BlockView(together, longer(stays, True), top, core, view.corner, are_edges)
 
     @cached_property
     def _cells(self) -> np.ndarray:

@@ -25,7 +25,6 @@ from ...engine.step import Look, Sink, Step
 from ...engine.store import OTHERS, Marks, Store
 from ...grids.cell_window import CellWindow
 from ...grids.cells import first_of_each
-from ...grids.expected_error import LOOKS
 from ...las.cloud import PointCloud, survey_frame
 from ...las.lasfile import FIRST_EXTENDED_FORMAT, LasFile
 from ...rasters.cell_grid import cell_grid
@@ -49,10 +48,6 @@ _BYTES_A_CELL = 120.0
 # By how much the classes of topo-bathymetric lidar (40 to 45) are lower in files of NOAA that have
 # a point format of 0 to 5.
 _NOAA = 14
-
-
-# The flags of the ground of each look, if there were several.
-_LOOKS = tuple(f"look {number}" for number in range(LOOKS))
 
 
 @dataclass
@@ -169,18 +164,7 @@ class MakeRasters(Drawing, Sink):
             shown = ground | roads | self._thinned(part, shown & ~ground & ~roads)
         top = shown & self.needs_surface & self._is_surface(part, ground, counts)
         counts.top += int(np.count_nonzero(top))
-        return Marks(shown, ground, top, {ROADS_FLAG: roads, **self._looks(part, ground)})
-
-    def _looks(self, part: PointCloud, ground: np.ndarray) -> dict[str, np.ndarray]:
-        """Return the ground of several looks as flags, if there were any and they matter."""
-        if part.looks is None or "expected_error" not in self.files.layers:
-            return {}
-        # What is ground by its class alone, or not in spite of the filter, is so in all looks.
-        is_found = (part.looks & 1 > 0) == ground
-        return {
-            name: np.where(is_found, part.looks >> number & 1 > 0, ground)
-            for number, name in enumerate(_LOOKS)
-        }
+        return Marks(shown, ground, top, {ROADS_FLAG: roads})
 
     def _is_surface(self, part: PointCloud, ground: np.ndarray, counts: RasterCounts) -> np.ndarray:
         """Return which points are of the classes and returns of the surface."""
@@ -268,10 +252,7 @@ class MakeRasters(Drawing, Sink):
         if not lacks_ground:
             ground = with_roads(points, ground, roads, progress.part(0.1, 0.2))
         known = None if thinned is None else (thinned, block.holds(thinned.points, corner))
-        looks = tuple(contents.flags[name] for name in _LOOKS if name in contents.flags)
-        view = BlockView(
-            points, ground, contents.wanted, core, corner, None, known, lacks_ground, looks
-        )
+        view = BlockView(points, ground, contents.wanted, core, corner, None, known, lacks_ground)
         if self.fixed is not None and points.count:
             view = self.fixed.added_to(view)
         return self.of_block.of(view, block.box, progress.part(0.2, 1.0))
