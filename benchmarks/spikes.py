@@ -15,11 +15,11 @@ import numpy as np
 from bare_earth.algorithms.classes.point_counts import PointCounts
 from bare_earth.algorithms.classes.selection import Selection
 from bare_earth.algorithms.filters import METHODS
-from bare_earth.algorithms.filters.method import NOT_GROUND
 from bare_earth.algorithms.relief.hillshade import hillshade
 
 from . import data
 from .accuracy import method_name
+from .deciding_rules import name_of
 from .measure import ReferenceModel
 from .places import FROM, places_off
 
@@ -79,8 +79,7 @@ def _deciding(codes: np.ndarray, rules: tuple[str, ...]) -> str:
     codes = codes[codes > 0]
     if not len(codes):
         return "none"
-    code = int(np.bincount(codes).argmax())
-    return rules[code - 1] if code < NOT_GROUND else f"not-{rules[code - NOT_GROUND - 1]}"
+    return name_of(int(np.bincount(codes).argmax()), rules)
 
 
 def _draw(model, points, reference, ground, difference, place, title, target) -> None:

@@ -74,6 +74,7 @@ class Function:
     flags: Mapping[str, str] = field(default_factory=dict)
     without: tuple[str, ...] = ()  # parameters of the sets that have no effect in it
     looks_around: bool = True  # as of the tool
+    classifies: bool = False  # as of the tool
     result_of_many: type | None = None  # class of the value of many files, if it is another
 
     @property
@@ -162,7 +163,7 @@ class Function:
     def work(self, values: SimpleNamespace, sets: Sequence[ParameterSet]) -> Any:
         """Download points that are given by address, and run."""
         arguments = *self.positional, *self.keywords
-        with bring_points(arguments, values, sets, self.looks_around):
+        with bring_points(arguments, values, sets, self.looks_around, self.classifies):
             return self.run(values, sets)
 
     def callable(self, module: str = PACKAGE) -> Callable[..., Any]:

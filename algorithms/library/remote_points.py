@@ -34,6 +34,7 @@ def bring_points(
     values: SimpleNamespace,
     sets: Sequence[ParameterSet],
     looks_around: bool = True,
+    classifies: bool = False,
 ) -> ContextManager[None]:
     """Put files of the cache in the place of addresses of point clouds; with what is returned,
     errors name the addresses.
@@ -54,8 +55,7 @@ def bring_points(
     area, crs = area_of(SimpleNamespace(**edges)), stated_crs(getattr(values, "crs", None))
     if area is not None:
         makes_rasters = any(getattr(values, name, None) for name in (*RASTERS, "contours"))
-        is_alone = hasattr(values, "explain") and not makes_rasters
-        margin = margin_of(sets, is_alone) if looks_around else 0.0
+        margin = margin_of(sets, classifies and not makes_rasters) if looks_around else 0.0
         area = Surroundings(area.box, area.polygons, margin, crs)
     advice = "Choose a smaller area"
     if not area:

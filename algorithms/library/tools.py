@@ -215,6 +215,7 @@ def _of_map_tool(command: str) -> Function:
         partial(_run_on_points, tool),
         Summary if tool.classifies else RasterSize,
         has_method=tool.classifies,
+        classifies=tool.classifies,
     )
 
 

@@ -27,11 +27,11 @@ _POINTS = "--height-above-ground --above-ground"
 COMMANDS = {
     # Labels: methods, presets, and which points take part.
     "classify/tin": f"classify raw.laz OUT/a.laz {_MODELS} {_ALL_CLASSES} {_POINTS} asprs"
-    f" --explain OUT/rules.tif --contours OUT/lines.geojson --json",
+    f" --contours OUT/lines.geojson --json",
     "classify/slope": f"classify raw.laz OUT/a.laz --method slope --dtm OUT/dtm.tif {_ALL_CLASSES}"
-    f" {_POINTS} ign --explain OUT/rules.tif --json",
+    f" {_POINTS} ign --json",
     "classify/grid-minimum": "classify raw.laz OUT/a.laz --method grid-minimum --dtm OUT/dtm.tif"
-    f" {_ALL_CLASSES} {_POINTS} own --explain OUT/rules.tif --json",
+    f" {_ALL_CLASSES} {_POINTS} own --json",
     "classify/lidar360": "classify raw.laz OUT/a.las --preset lidar360 --verbose",
     "classify/whitebox": "classify raw.laz OUT/a.las --method slope --preset whitebox",
     "classify/paper": "classify raw.laz OUT/a.las --method grid-minimum --preset paper",

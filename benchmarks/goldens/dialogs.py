@@ -34,7 +34,7 @@ _PATHS = (".laz", ".las", ".tif", ".geojson", ".gpkg", ".csv", ".html", ".vpc", 
 RUNS: dict[str, tuple[str, dict[str, Any]]] = {
     "tin": ("tindensification", {
         "INPUT": "raw.laz", **_CLASSES, "HEIGHT_ABOVE_GROUND": True, "ABOVE_GROUND": "asprs",
-        "OUTPUT": "OUT/a.laz", "DTM": "OUT/dtm.tif", "EXPLANATION": "OUT/rules.tif",
+        "OUTPUT": "OUT/a.laz", "DTM": "OUT/dtm.tif",
     }),
     "slope": ("slopefilter", {
         "INPUT": "raw.laz", "EXTENT": "569970,570020,5932470,5932530 [EPSG:25832]",

@@ -78,7 +78,6 @@ PLACES = Look(mark("Places to review"), 10, vectors.places)
 # Beside those of `RASTERS`.
 _OTHERS = {
     "ERROR_MAP": _drawn(mark("Errors"), looks.Look(looks.Ramp(looks.ERRORS, 0.0, 1.0), 6, 1)),
-    "EXPLANATION": Look(mark("Deciding rules"), 6, rasters.rules, 1),
     "TERRAIN_WITH_BUILDINGS": _drawn(mark("Terrain with buildings"), _SURFACE),
 }
 # Of outputs of tools that are not rasters with a row, by the names in their declarations.

@@ -24,26 +24,20 @@ from qgis.PyQt.QtGui import QColor, QPainter
 
 from ...algorithms.crs.system import unit_size
 from ...algorithms.rasters.looks import Categories, Picture, Ramp, Steps, Stops, Style
-from ...algorithms.tools.ground.explanation import rules_in
 from .. import compat
 from ..i18n import tr
 from . import clouds
-from .rules import categories_of
 
 _MULTIPLY = QPainter.CompositionMode.CompositionMode_Multiply
 # Colours spread between these quantiles of a sample.
 _LOW = 0.02
 _HIGH = 0.98
 _SAMPLE = 600  # most rows, and most columns, of it
-_CODES = 256  # values of a byte
-_ROWS = 512  # of bytes that are read at a time
 
 
 def shown_by(layer: QgsRasterLayer) -> str:
     """Return the description of the band in the user's language; empty if there is none."""
     said = _description(layer.source())
-    if rules_in(said):
-        return tr("Rule that decided each cell")
     return ", ".join(tr(part) or part for part in said.split(", "))
 
 
@@ -130,18 +124,6 @@ def classes(categories: Mapping[int, tuple[str, QColor]]) -> Callable[[QgsRaster
         clouds.show_through(layer)
 
     return dress
-
-
-def rules(layer: QgsRasterLayer) -> None:
-    """Give each rule that decided cells its name and colour."""
-    raster = gdal.Open(layer.source())  # it holds the band
-    band = raster.GetRasterBand(1)
-    counts = np.zeros(_CODES, dtype=np.int64)
-    for row in range(0, band.YSize, _ROWS):
-        rows = band.ReadAsArray(0, row, band.XSize, min(_ROWS, band.YSize - row))
-        counts += np.bincount(rows.ravel(), minlength=_CODES)
-    codes = np.flatnonzero(counts).tolist()
-    classes(categories_of(codes, rules_in(band.GetDescription())))(layer)
 
 
 def _limits(layer: QgsRasterLayer, style: Ramp) -> tuple[float, float]:

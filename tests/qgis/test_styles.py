@@ -12,21 +12,15 @@ from qgis.core import (
     QgsLayerTreeModel,
     QgsPointCloudLayer,
     QgsProcessingOutputLayerDefinition,
-    QgsProcessingParameterDefinition,
     QgsProject,
     QgsRasterLayer,
     QgsUnitTypes,
 )
 from qgis.PyQt.QtCore import Qt
 from qgis.PyQt.QtGui import QPainter
-from support import ALGORITHM, colour_at, groups, remove, title_of, write_scene
+from support import ALGORITHM, colour_at, groups, title_of, write_scene
 
-from bare_earth import Progress
-from bare_earth.algorithms.core.points import Points
-from bare_earth.algorithms.filters import METHODS
-from bare_earth.algorithms.filters.method import NOT_GROUND
-from bare_earth.algorithms.tools.ground.explanation import described
-from bare_earth.plugin.styles import clouds, layers, rasters, rules
+from bare_earth.plugin.styles import clouds, layers, rasters
 
 MULTIPLY = QPainter.CompositionMode.CompositionMode_Multiply
 
@@ -365,109 +359,6 @@ def test_the_map_has_the_colours_of_the_legend(run, tmp_path):
         seen, colour = colour_at(root.layerOrder(), 500_000 + x, 5_700_000 + y), wanted[value][1]
         channels = zip(seen.getRgb()[:3], colour.getRgb()[:3])
         assert max(abs(one - other) for one, other in channels) < 20, (value, seen.name())
-
-
-METHODS_OF_ONE_FILE = ["tindensification", "slopefilter", "gridminimum"]
-
-
-@pytest.mark.parametrize("name", METHODS_OF_ONE_FILE)
-def test_a_layer_tells_which_rule_decided_each_cell(run, scene, tmp_path, name):
-    project = QgsProject.instance()
-    model = QgsLayerTreeModel(project.layerTreeRoot())
-    outputs = {"EXPLANATION": tmp_path / "rules.tif", "HILLSHADE": tmp_path / "shade.tif"}
-    values = {"INPUT": str(scene.path), "OUTPUT": str(tmp_path / "out.las")}
-    results = run(f"bareearth:{name}", values, outputs)
-    assert results["EXPLANATION"] == str(tmp_path / "rules.tif")
-    (group,) = tree().values()
-    assert ("Deciding rules", False) in group  # the classes hide it at first
-    (layer,) = project.mapLayersByName("scene: Deciding rules")
-    assert layer.renderer().type() == "paletted"
-    categories = {entry.value: entry for entry in layer.renderer().classes()}
-    codes = gdal.Open(str(tmp_path / "rules.tif")).ReadAsArray()
-    assert set(categories) == set(np.unique(codes).tolist()) - {0}
-    # On the building and beside it; the first row is in the north.
-    north = layer.extent().yMaximum() - 5_700_000
-    house, field = (categories[codes[int(north - y), x]] for x, y in ((39, 33), (10, 60)))
-    assert field.label == "Ground: lowest points, undisputed"
-    assert house.label == {
-        "gridminimum": "Not ground: tall objects",
-    }.get(name, "Not ground: raised objects")
-    assert field.color.hue() < 180 and house.color.name() != field.color.name()
-    nodes = model.layerLegendNodes(project.layerTreeRoot().findLayer(layer.id()))
-    texts = [node.data(Qt.ItemDataRole.DisplayRole) for node in nodes]
-    assert texts == [
-        "Rule that decided each cell", *(entry.label for entry in layer.renderer().classes()),
-    ]  # fmt: skip
-    assert f"--explain {tmp_path / 'rules.tif'}" in layer.metadata().abstract()
-
-
-@pytest.mark.parametrize("name", METHODS_OF_ONE_FILE)
-def test_rules_are_not_told_by_default(registry, scene, tmp_path, context, log, name):
-    from processing.gui.AlgorithmDialog import AlgorithmDialog
-
-    algorithm = registry.createAlgorithmById(f"bareearth:{name}")
-    field = algorithm.parameterDefinition("EXPLANATION")
-    flag = QgsProcessingParameterDefinition.Flag
-    assert field.flags() & flag.FlagAdvanced and field.flags() & flag.FlagOptional
-    assert not field.createByDefault()
-    dialog = AlgorithmDialog(algorithm.create())
-    assert dialog.mainWidget().wrappers["EXPLANATION"].parameterValue() is None
-    remove(dialog)
-    values = {"INPUT": str(scene.path), "OUTPUT": str(tmp_path / "out.las")}
-    results, done = algorithm.run(values, context, log)
-    assert done and "EXPLANATION" not in results and "--explain" not in log.text
-    assert {path.name for path in tmp_path.iterdir()} == {scene.path.name, "out.las"}
-
-
-def test_a_preset_without_cells_has_no_rules_to_tell(registry, scene, tmp_path, context, log):
-    algorithm = registry.createAlgorithmById("bareearth:slopefilter")
-    values = {"INPUT": str(scene.path), "PRESET": "whitebox"}
-    outputs = {"OUTPUT": str(tmp_path / "out.las"), "EXPLANATION": str(tmp_path / "rules.tif")}
-    assert not algorithm.run({**values, **outputs}, context, log)[1]
-    assert "decides points, not cells" in log.text
-    assert [path.name for path in tmp_path.iterdir()] == [scene.path.name]
-
-
-def test_a_style_of_rules_fits_the_file_that_is_there(tmp_path):
-    names = ("known-ground", "raised-objects", "new-rule")
-    for codes, labels in (
-        ([[1, 0], [102, 1]], ["Ground: known ground", "Not ground: raised objects"]),
-        ([[3, 103], [0, 0]], ["Ground: new rule", "Not ground: new rule"]),
-        ([[0, 0], [0, 0]], []),
-    ):  # fmt: skip
-        made = gdal.GetDriverByName("GTiff").Create(str(tmp_path / "rules.tif"), 2, 2)
-        made.GetRasterBand(1).WriteArray(np.array(codes, dtype=np.uint8))
-        made.GetRasterBand(1).SetDescription(described(names))
-        made = None
-        layer = QgsRasterLayer(str(tmp_path / "rules.tif"))
-        rasters.rules(layer)
-        assert [entry.label for entry in layer.renderer().classes()] == labels
-
-
-def test_every_rule_has_a_name_and_the_rules_of_a_filter_have_their_own_colours():
-    side = np.arange(0.0, 20.0)
-    x, y = (values.ravel() for values in np.meshgrid(side, side))
-    for method in METHODS.values():
-        for preset in ("automatic", method.classic):
-            if preset == "whitebox":  # it has no cells
-                continue
-            points, parameters = Points(x, y, 0.0 * x), method.parameters(preset=preset)
-            names = {rule.name for rule in method.pipeline(points, parameters, Progress()).rules}
-            # These decide no cell, but change what other rules see.
-            unseen = {"woods", "tolerance-surface", "plain-surface", "paper-surface"}
-            assert names <= {*rules.GROUND, *rules.OBJECTS, *unseen}
-            numbers = dict(enumerate(sorted(names - unseen), start=1))
-            usual = [number for number, name in numbers.items() if name in rules.GROUND]
-            usual += [
-                NOT_GROUND + number for number, name in numbers.items() if name in rules.OBJECTS
-            ]
-            found = rules.categories_of(usual, numbers)
-            assert len({colour.name() for _, colour in found.values()}) == len(found) > 4
-            # The panel of layers cuts longer ones.
-            assert max(len(label) for label, _ in found.values()) <= 36
-            # Ground is brown to green.
-            ground = [colour for code, (_, colour) in found.items() if code < NOT_GROUND]
-            assert ground and all(20 <= colour.hsvHue() <= 170 for colour in ground)
 
 
 @pytest.mark.parametrize("crs", ["", "EPSG:25832"])

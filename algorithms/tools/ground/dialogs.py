@@ -27,7 +27,7 @@ from ..rasters.parameters import Gaps, RasterOutput, TerrainModel
 from ..rasters.tool import maps
 from .method import TileMethod
 from .output import Output as Written
-from .tool import EXPLANATION, TOOL
+from .tool import TOOL
 
 
 class _Filter(NamedTuple):
@@ -115,7 +115,7 @@ METHOD_TOOLS = tuple(
         TOOL,
         method=name,
         points=Input("input", "cloud", label="Point cloud"),
-        dialog_outputs=lambda: (CLOUD_OUTPUT, *_usual_maps(), EXPLANATION),
+        dialog_outputs=lambda: (CLOUD_OUTPUT, *_usual_maps()),
         dialog_sets=(
             METHODS[name].parameters, Selection, TerrainModel, Gaps, Written, ThenAboveGround,
             Resources,

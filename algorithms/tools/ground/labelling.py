@@ -18,7 +18,7 @@ from ...core.words import counted
 from ...engine.blocks import Blocks, Visit
 from ...engine.store import BlockPoints
 from ...filters import method_of
-from ...filters.method import Decisions, warn_of_extent, warn_of_little_ground
+from ...filters.method import warn_of_extent, warn_of_little_ground
 from ...filters.stages.noise import UNTHINNED
 from ...filters.stages.outliers import below_ground
 from ...grids.bridge_decks import bridge_decks
@@ -27,7 +27,6 @@ from ...grids.continued_ground import CONTINUED, continued_ground
 from ...grids.high_groups import HighGroups
 from ...grids.parts import apart
 from ...las.return_numbers import MULTI_RETURN
-from .explanation import ExplainedCells
 
 # Shares of the time of a block for finding bridges, and low outliers.
 _BRIDGES_SHARE = 0.15
@@ -68,12 +67,9 @@ def labelled(
     visit: Visit,
     parameters: ParameterSet,
     selection: Selection,
-    explains: bool,
     progress: Progress,
-) -> tuple[np.ndarray, np.ndarray, BlockMessages, ExplainedCells | None]:
-    """Return the positions of the points of a block, their `Label` or 0, the messages, and the
-    cells of the deciding rules, if it `explains`.
-    """
+) -> tuple[np.ndarray, np.ndarray, BlockMessages]:
+    """Return the positions of the points of a block, their `Label` or 0, and the messages."""
     west, south, east, north = (
         side - start for side, start in zip(visit.block.box, visit.corner * 2)
     )
@@ -84,35 +80,28 @@ def labelled(
     core = visit.core(contents)
     positions = contents.positions if core.all() else contents.positions[core]
     notes = BlockMessages(progress.part(0.15, 1.0), len(positions), visit.is_only)
-    labels, cells = np.zeros(len(positions), dtype=np.uint8), None
+    labels = np.zeros(len(positions), dtype=np.uint8)
     if notes.count:
-        label = partial(_label, parameters, selection, explains, box)
+        label = partial(_label, parameters, selection, box)
         try:
-            found, decided = _labels(contents, core, label, visit.blocks.buffer, notes)
+            found = _labels(contents, core, label, visit.blocks.buffer, notes)
             if TO_CONTINUE in contents.flags:
                 tell_spacing(contents.points, box)
                 notes.continued = _continue(contents, core, found)
             labels = found if core.all() else found[core]
-            if decided is not None:
-                points = contents.points.take(core)
-                decided = decided._replace(codes=decided.codes[core])
-                cells = ExplainedCells.of(points.x, points.y, decided, visit.corner)
         except BareEarthError as error:
             notes.failure = error
-    return positions, labels, notes, cells
+    return positions, labels, notes
 
 
 def _label(
     parameters: ParameterSet,
     selection: Selection,
-    explains: bool,
     box: Box,
     contents: BlockPoints,
     progress: Progress,
-) -> tuple[np.ndarray, Decisions | None]:
-    """Return the label of each point, and the deciding rules if they are wanted; `contents` are all
-    points in the box and some round it.
-    """
+) -> np.ndarray:
+    """Return the label of each point; `contents` are all points in the box and some round it."""
     method, finds_low = method_of(parameters), selection.low_noise_class
     end = 1.0 - _LOW_SHARE if finds_low else 1.0
     finds_bridges = selection.bridges == "find" or (
@@ -122,11 +111,11 @@ def _label(
     points, known = contents.points, contents.known
     if points.count == 1:
         # A single point cannot be compared with others, and there can be many such groups.
-        return np.array([Label.GROUND], dtype=np.uint8), None
+        return np.array([Label.GROUND], dtype=np.uint8)
     tell_spacing(points, box)
     warn_of_extent(points, *method.largest(parameters), progress)
-    ground, outliers, decided = method.ground(
-        points, parameters, part, known, contents.flags[MULTI_RETURN], explains
+    ground, outliers, _ = method.ground(
+        points, parameters, part, known, contents.flags[MULTI_RETURN]
     )
     ground |= known
     warn_of_little_ground(points, ground, progress)
@@ -144,7 +133,7 @@ def _label(
     if selection.high_noise_class:
         high = HighGroups(height=selection.high_noise_height).find(points)
         labels[high & (labels == 0)] = Label.HIGH
-    return labels, decided
+    return labels
 
 
 def _continue(contents: BlockPoints, core: np.ndarray, labels: np.ndarray) -> int:
@@ -160,11 +149,11 @@ def _continue(contents: BlockPoints, core: np.ndarray, labels: np.ndarray) -> in
 def _labels(
     contents: BlockPoints,
     wanted: np.ndarray,
-    label: Callable[[BlockPoints, Progress], tuple[np.ndarray, Decisions | None]],
+    label: Callable[[BlockPoints, Progress], np.ndarray],
     reach: float,
     progress: Progress,
-) -> tuple[np.ndarray, Decisions | None]:
-    """Return the label of each wanted point of a window, and the rules that decided."""
+) -> np.ndarray:
+    """Return the label of each wanted point of a window."""
     # Groups of points that are farther apart than the reach of the filter do not affect each other,
     # and are filtered separately. Otherwise a stray point would extend the grid of all others.
     groups, count = apart(contents.points, reach)
@@ -173,23 +162,20 @@ def _labels(
     if count == 1:
         return label(contents, progress)
     sizes = np.bincount(groups, minlength=count)
-    labels, codes = np.zeros((2, len(groups)), dtype=np.uint8)
-    decided, failures, done = None, [], 0
+    labels, failures, done = np.zeros(len(groups), dtype=np.uint8), [], 0
     needed = np.flatnonzero(np.bincount(groups[wanted], minlength=count))
     for group in needed[np.argsort(-sizes[needed], kind="stable")].tolist():
         members, end = np.flatnonzero(groups == group), done + int(sizes[group])
         part = progress.part(done / len(groups), end / len(groups))
         try:
             # Messages are those of the largest group.
-            labels[members], found = label(contents.take(members), part.quiet() if done else part)
-            if found is not None:
-                decided, codes[members] = found, found.codes
+            labels[members] = label(contents.take(members), part.quiet() if done else part)
         except BareEarthError as error:
             failures.append(error)
         done = end
     if len(failures) == len(needed):
         raise failures[0]
-    return labels, None if decided is None else decided._replace(codes=codes)
+    return labels
 
 
 class BlockMessages(Notes):

@@ -15,9 +15,8 @@ from ...classes.point_chooser import PointChooser
 from ...classes.point_counts import PointCounts, by_class
 from ...classes.selection import Selection
 from ...core.errors import BareEarthError
-from ...core.files import Outputs
 from ...core.parameters import ParameterSet
-from ...core.points import Box, Frame
+from ...core.points import Box
 from ...core.progress import SILENT, Progress
 from ...core.words import counted
 from ...engine.blocks import Block, Blocks, Visit
@@ -29,9 +28,7 @@ from ...las.crs_records import read_crs
 from ...las.edits import Edits
 from ...las.lasfile import LasFile
 from ...las.return_numbers import MULTI_RETURN, SeveralReturns
-from ...rasters.writing import raster_file
 from ...survey.area import Area
-from .explanation import ExplainedCells, write_explanation
 from .labelling import (
     TO_CONTINUE,
     Label,
@@ -55,7 +52,6 @@ class LabelGround(PointStep):
     output: Output = field(default_factory=Output)  # which points are written
     cut: Blocks | None = None  # the blocks, if not those of the method
     corrections: Corrections = NO_CORRECTIONS  # beside those that the files remember
-    explain: Path | None = None  # raster of the rules that decided, of one file
 
     counts = PointCounts
     weight = 5.0
@@ -130,9 +126,7 @@ class LabelGround(PointStep):
         return not self.output.ground_only
 
     def check_survey(self, box: Box, steps: Sequence[Step]) -> None:
-        """Refuse a survey that the area does not touch, or an explanation of many files."""
-        if self.explain is not None:
-            raise BareEarthError("The raster of rules (explain) is made of one file, not of many.")
+        """Refuse a survey that the area does not touch."""
         if self.area is not None and not self.area.may_touch(box):
             raise self.chooser.no_point_in_area("the files", box)
 
@@ -165,45 +159,21 @@ class LabelGround(PointStep):
         elif not any(summary.by_hand_count for summary in done):
             self.chooser.tell_of_corrections(progress)
 
-    @property
-    def outputs(self) -> list[tuple[str, Path]]:
-        """The raster of rules, if it is wanted."""
-        return [] if self.explain is None else [("raster", self.explain)]
-
     def in_block(self, visit: Visit, progress: Progress) -> tuple[Any, ...]:
         """Label the points of a block; see `labelled`."""
-        explains = self.explain is not None
-        return labelled(visit, self.parameters, self.selection, explains, progress)
+        return labelled(visit, self.parameters, self.selection, progress)
 
-    def end(
-        self, store: Store, results: Sequence[tuple[Block, Any]], progress: Progress
-    ) -> list[ExplainedCells]:
-        """Tell what was found in the blocks, and refuse points without ground in any; return the
-        cells of the rules that decided, if they are wanted.
-        """
+    def end(self, store: Store, results: Sequence[tuple[Block, Any]], progress: Progress) -> None:
+        """Report what was found in the blocks; refuse points without ground in any."""
         method = method_of(self.parameters)
         if store.has_known and not method.takes_known_ground:
             progress.info(
                 f"{method.label} does not start from known ground; it only keeps these"
                 " points as ground."
             )
-        tell(progress, [notes for _, (notes, _) in results if notes.count])
+        tell(progress, [notes for _, (notes,) in results if notes.count])
         if self.corrections.continues:
-            tell_of_continued(sum(notes.continued for _, (notes, _) in results), progress)
-        return [cells for _, (_, cells) in results if cells is not None]
-
-    def finish(
-        self,
-        result: Sequence[ExplainedCells],
-        frame: Frame,
-        outputs: Outputs,
-        progress: Progress,
-        tiles: Sequence[LasFile] | None = None,
-    ) -> None:
-        """Write the raster of rules, if it is wanted."""
-        if self.explain is not None:
-            path = raster_file(outputs, self.explain)
-            write_explanation(path, result, frame, progress, self.area)
+            tell_of_continued(sum(notes.continued for _, (notes,) in results), progress)
 
     def result(self, path: Path, allocate: Allocate) -> ClassifiedPoints:
         """Return an object that counts the classified points of a file."""

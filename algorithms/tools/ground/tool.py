@@ -19,7 +19,7 @@ from ...survey.area import Area
 from ..above_ground import ClassifyAboveGround
 from ..above_ground.classes import ThenAboveGround
 from ..contours import Contours
-from ..declaration import Input, MapTool, Output
+from ..declaration import Input, MapTool
 from ..heights import MeasureHeights
 from ..rasters.parameters import RasterOutput, SurfaceModel, TerrainModel
 from ..rasters.step import MakeRasters
@@ -27,18 +27,6 @@ from ..rasters.tool import TARGET, maps, rasters_of
 from .method import TileMethod
 from .output import Output as Written
 from .step import LabelGround
-
-EXPLANATION = Output(
-    "explain",
-    "raster",
-    "Of one file: a raster that tells why a place is ground or not, by the rule of the filter that"
-    " decided the cell. Its band lists the rules. Presets that decide points, not cells, cannot"
-    " make it.",
-    label="Rule that decided each cell",
-    named="EXPLANATION",
-    by_default=False,
-    advanced=True,
-)
 
 
 def _steps(
@@ -49,13 +37,11 @@ def _steps(
         Selection.among(sets), Written.among(sets), ThenAboveGround.among(sets),
     )  # fmt: skip
     area, corrections = inputs.get("area"), inputs.get("corrections") or NO_CORRECTIONS
-    explain, ground = outputs.get("explain"), GroundClasses.of_selection(selection)
+    ground = GroundClasses.of_selection(selection)
     rasters = rasters_of(sets, inputs, outputs, ground, selection.roads)
     rasters = replace(rasters, covers_ground=written.ground_only and not rasters.needs_all)
     _check(written, area, above, rasters)
-    steps: list[Step] = [
-        LabelGround(_method(sets), selection, area, written, None, corrections, explain)
-    ]
+    steps: list[Step] = [LabelGround(_method(sets), selection, area, written, None, corrections)]
     if above.wanted:
         steps.append(ClassifyAboveGround(above, ground, area, corrections))
     if written.height_above_ground:
@@ -115,7 +101,7 @@ TOOL = MapTool(
     json="the counts",
     inputs=(TARGET, _CONSTRAINTS, _AREA, _CORRECTIONS),
     dialog_inputs=(_AREA, _CORRECTIONS, _CONSTRAINTS, TARGET),
-    outputs=lambda: (*maps(), EXPLANATION),
+    outputs=maps,
     steps=_steps,
     classifies=True,
     command="classify",
