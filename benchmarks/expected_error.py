@@ -26,7 +26,6 @@ from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.grids.cells import Cells
 from bare_earth.algorithms.grids.expected_error import (
-    BEYOND,
     CELL,
     FACTORS,
     LEAST,
@@ -36,7 +35,6 @@ from bare_earth.algorithms.grids.expected_error import (
     error_of,
     evidence,
     expected_error,
-    share_over,
 )
 from bare_earth.algorithms.las.cloud import PointCloud
 from bare_earth.algorithms.report.units import Units
@@ -81,6 +79,8 @@ _HELD_HEAD = (
     "|---|--:|--:|--:|",
 )
 LIMIT = 0.3  # metres from which an error is large
+BEYOND = 0.05  # share of the errors that are larger than the expected one
+_SHAPE = 0.4  # exponent of the Weibull distribution of the errors of a cell
 
 
 class Seen(NamedTuple):
@@ -347,6 +347,11 @@ def _spread(seen: Seen) -> np.ndarray:
 def _halves(seen: Sequence[Seen]) -> dict[str, int]:
     """Return the half, 0 or 1, to which each tile belongs."""
     return {name: number % 2 for number, name in enumerate(sorted({one.tile for one in seen}))}
+
+
+def share_over(limit: float, error: np.ndarray) -> np.ndarray:
+    """Return the probability that the error of a cell exceeds a limit, given its expected error."""
+    return BEYOND ** ((limit / error) ** _SHAPE)
 
 
 class Score(NamedTuple):

@@ -73,12 +73,9 @@ FACTORS: Table = {
 }  # fmt: skip
 # The usual factor of each piece of evidence in the benchmark: a larger one is a cause of the error.
 _USUAL = (1.25, 1.74, 1.22, 1.1, 1.14, 1.16, 1.11)
-# By the benchmark: the exponent of the Weibull distribution of the errors of a cell, and the ratio
-# of the RMSE of a tile to the root mean square of its expected errors.
-SHAPE = 0.4
+# By the benchmark: the ratio of the RMSE of a tile to the root mean square of its expected errors.
 RMSE_SHARE = 0.35
 LARGE = 0.3  # metres from which on an expected error is reported as large
-BEYOND = 0.05  # share of the errors that are larger than the expected one
 
 
 class ExpectedError(NamedTuple):
@@ -123,11 +120,6 @@ def _logarithms(pieces: Evidence, factors: Table) -> Iterator[np.ndarray]:
     for name, values in pieces._asdict().items():
         start, factor = np.array(factors[name]).T
         yield np.interp(values, start, np.log(factor)).astype(np.float32)
-
-
-def share_over(limit: float, error: np.ndarray) -> np.ndarray:
-    """Return the probability that the error of a cell exceeds a limit, given its expected error."""
-    return BEYOND ** ((limit / error) ** SHAPE)
 
 
 class ExpectedAccuracy:

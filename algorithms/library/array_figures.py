@@ -110,8 +110,8 @@ def _residuals(values: SimpleNamespace, sets: Sequence[ParameterSet]) -> Feature
         raise BareEarthError("Give checkpoints.")
     with may_use(available_cpus()):
         residuals = residuals_of(
-            points, checkpoints, (None, None, None), (), tuple(values.vegetated or ()),
-            options.max_edge, options.min_confidence, progress_of(values.progress),
+            points, checkpoints, (None, None), (), tuple(values.vegetated or ()),
+            options.max_edge, progress_of(values.progress),
         )  # fmt: skip
     return Features.of(*layer_of(residuals, points.survey.crs))
 

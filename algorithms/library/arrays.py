@@ -284,11 +284,6 @@ FUNCTIONS: dict[str, Callable[[], Function]] = {
         _CLASSES_KIND,
         _classes,
     ),
-    "confidence": lambda: _of_raster(
-        "confidence",
-        "Tell how likely the terrain is right to 0.3 m in each cell, from 0 to 1.",
-        "The confidence",
-    ),
     "contours": of_contours,
     "expected_error": lambda: _of_raster(
         "expected_error",

@@ -23,10 +23,6 @@ CANOPY: Stops = (
 )  # fmt: skip
 # The same for points.
 HEIGHTS: Stops = ((0.0, "#c9a26b"), (0.04, "#e8dfa8"), *CANOPY[2:])
-# Low and high values differ in lightness, for colour-blind people.
-CONFIDENCE: Stops = (
-    (0.0, "#7a0f3d"), (0.3, "#d4523f"), (0.6, "#f5b25b"), (0.85, "#f2ecb0"), (1.0, "#9fcdb9"),
-)  # fmt: skip
 ERRORS: Stops = (
     (0.0, "#00ffffff"), (0.02, "#a0f7d9a0"), (0.25, "#f2934d"), (0.6, "#c23b3f"), (1.0, "#5a0a3c"),
 )  # fmt: skip

@@ -13,7 +13,7 @@ _PICTURES = (
     " --vat OUT/vat.tif --red-relief OUT/red.tif"
 )
 _MODELS = (
-    "--dtm OUT/dtm.tif --dsm OUT/dsm.tif --chm OUT/chm.tif --confidence OUT/confidence.tif"
+    "--dtm OUT/dtm.tif --dsm OUT/dsm.tif --chm OUT/chm.tif"
     " --expected-error OUT/error.tif --error-cause OUT/cause.tif"
 )
 _KNOWN = (
@@ -110,8 +110,8 @@ COMMANDS = {
     "fetch/area": "fetch classify/key-points/a.copc.laz OUT/a.copc.laz --extent 569970 5932470"
     " 570030 5932530 --boundary boundary.geojson --json",
     # Figures.
-    "check/file": f"check truth.laz {_CHECKPOINTS} --dtm terrain/file/dtm.tif --confidence"
-    " terrain/file/confidence.tif --report OUT/page.html --table OUT/points.csv --residuals"
+    "check/file": f"check truth.laz {_CHECKPOINTS} --dtm terrain/file/dtm.tif"
+    " --report OUT/page.html --table OUT/points.csv --residuals"
     " OUT/points.geojson --accuracy-class 0.1 --json",
     "check/survey": f"check truth {_CHECKPOINTS} --hold-out 0.1 --residuals OUT/points.gpkg"
     " --low-confidence water.geojson",

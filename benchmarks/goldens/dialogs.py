@@ -18,7 +18,7 @@ from .digests import Digests, of_fixed_text, of_text
 from .inputs import write_inputs
 from .running import of_folder, working_in
 
-_RASTERS = ("DTM", "DSM", "CHM", "HILLSHADE", "CONFIDENCE", "EXPECTED_ERROR")
+_RASTERS = ("DTM", "DSM", "CHM", "HILLSHADE", "EXPECTED_ERROR")
 _CLASSES = {"LOW_NOISE_CLASS": True, "HIGH_NOISE_CLASS": True, "BRIDGE_CLASS": 17}
 _KNOWN = {
     "BREAKLINES": "breaklines.geojson", "WATER": "water.geojson", "RIVERS": "rivers.geojson",

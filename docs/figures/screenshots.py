@@ -168,7 +168,7 @@ def show_maps(tile: Path, folder: Path) -> None:
     cloud = str(folder / f"ground{suffix}")
     rasters = {
         field: str(folder / f"{field}.tif")
-        for field in ("DTM", "HILLSHADE", "DSM", "CHM", "CONFIDENCE")
+        for field in ("DTM", "HILLSHADE", "DSM", "CHM", "EXPECTED_ERROR")
     }
     two = {field: rasters[field] for field in ("DTM", "HILLSHADE")}
     show_map(ALGORITHM, {"INPUT": str(tile)}, {"OUTPUT": cloud, **two}, "map")
@@ -176,7 +176,7 @@ def show_maps(tile: Path, folder: Path) -> None:
     whole = {"OUTPUT": str(folder / f"cloud{suffix}"), **rasters, **lines}
     show_map(ONE_STEP, {"INPUT": str(tile)}, whole, "map-one-step")
     show_map("bareearth:terrainmodel", {"INPUT": cloud}, rasters, "map-terrain")
-    for field in ("CHM", "DSM", "CONFIDENCE"):
+    for field in ("CHM", "DSM", "EXPECTED_ERROR"):
         few = {"HILLSHADE": rasters["HILLSHADE"], field: rasters[field]}
         show_map("bareearth:terrainmodel", {"INPUT": cloud}, few, f"map-{field.lower()}")
     if suffix == ".copc.laz":  # else no cloud can be seen

@@ -62,7 +62,6 @@ _NO_FILES = {
     "source": mark("The elevation raster is not a file. Export it as GeoTIFF first."),
     "dtm": mark("The terrain model is not a file. Export it as GeoTIFF first."),
     "expected_error": mark("The expected error is not a file. Export it as GeoTIFF first."),
-    "confidence": mark("The confidence is not a file. Export it as GeoTIFF first."),
 }
 _NO_FILE = mark("{} is not a file. Export it as GeoTIFF first.")
 _LAYERS = {"lines": compat.LINES, "polygons": compat.POLYGONS}

@@ -15,11 +15,10 @@ from bare_earth.algorithms.grids.expected_error import (
     error_of,
     expected_error,
     expected_rmse,
-    share_over,
 )
 from benchmarks.clouds import classify_cloud
 from benchmarks.ensemble import further_members, spread_of
-from benchmarks.expected_error import Seen, auc, compared, fitted, score, with_ensemble
+from benchmarks.expected_error import Seen, auc, compared, fitted, score, share_over, with_ensemble
 from benchmarks.scenes import make
 
 HOUSE = (40.0, 60.0)

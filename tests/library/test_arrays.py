@@ -234,10 +234,9 @@ def test_features_are_those_of_the_files_functions(files, tmp_path):
     assert errors.ERROR.tolist() == wanted.ERROR.tolist() and errors.NAME.tolist() == list("abc")
     assert errors.crs.to_epsg() == 25832 and np.isfinite(errors.ERROR).any()
 
-    for name in ("confidence", "expected_error"):
-        one = getattr(arrays, name)(las, crs=crs, dtm_cell_size=2.0)
-        same = arrays.terrain(las, rasters=name, crs=crs, dtm_cell_size=2.0)[name]
-        assert np.array_equal(one.values, same.values, equal_nan=True)
+    one = arrays.expected_error(las, crs=crs, dtm_cell_size=2.0)
+    same = arrays.terrain(las, rasters="expected_error", crs=crs, dtm_cell_size=2.0)
+    assert np.array_equal(one.values, same["expected_error"].values, equal_nan=True)
 
 
 @pytest.mark.rest

@@ -17,7 +17,7 @@ from qgis.core import (
 from support import Log, layer_of, title_of, write_scene
 
 ALL_IN_ONE = "bareearth:pointcloudtoterrain"
-RASTERS = ("DTM", "DSM", "CHM", "HILLSHADE", "CONFIDENCE", "RELIEF")
+RASTERS = ("DTM", "DSM", "CHM", "HILLSHADE", "EXPECTED_ERROR", "RELIEF")
 
 
 def everything(folder):
@@ -246,7 +246,7 @@ def test_layers_are_styled_and_the_terrain_is_shown(scene, tmp_path, context):
     assert group.name() == "scene: terrain"
     titles = [title_of(child) for child in group.children()]
     assert titles == [
-        "Contour lines", "Classes", "Confidence", "Local relief", "Canopy height",
+        "Contour lines", "Classes", "Expected error", "Local relief", "Canopy height",
         "Surface model", "Terrain model", "Hillshade",
     ]  # fmt: skip
     shown = [title for title, child in zip(titles, group.children()) if child.isVisible()]

@@ -329,7 +329,7 @@ def test_layers_are_in_order_in_a_window_whatever_layer_is_current(qgis, clouds,
         import processing
         for _ in range(2):
             processing.runAndLoadResults(given["algorithm"], {
-                "INPUT": given["cloud"], "CONFIDENCE": "TEMPORARY_OUTPUT",
+                "INPUT": given["cloud"], "EXPECTED_ERROR": "TEMPORARY_OUTPUT",
                 **dict.fromkeys(("DTM", "DSM", "CHM", "HILLSHADE"), "TEMPORARY_OUTPUT"),
             })
             wait(lambda: False, 0.5)
@@ -340,7 +340,7 @@ def test_layers_are_in_order_in_a_window_whatever_layer_is_current(qgis, clouds,
         """,
         cloud=clouds[0].path, algorithm="bareearth:pointcloudtoterrain",
     )  # fmt: skip
-    titles = ["Confidence", "Canopy height", "Surface model", "Terrain model", "Hillshade"]
+    titles = ["Expected error", "Canopy height", "Surface model", "Terrain model", "Hillshade"]
     groups = {
         "scene: terrain": [f"scene: {title}" for title in titles],
         "scene: terrain (2)": [f"scene (2): {title}" for title in titles],

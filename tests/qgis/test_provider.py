@@ -61,7 +61,7 @@ PARAMETERS = {
         "BREAKLINES", "WATER", "RIVERS", "NO_GROUND", "LIKE", "RASTER_EXTENT",
         "CHECKPOINTS", "Z_FIELD", "COVER_FIELD", "NAME_FIELD", "LIMIT",
         "DELIVERY_FOLDER",
-        "OUTPUT", "DTM", "DSM", "CHM", "HILLSHADE", "EXPECTED_ERROR", "ERROR_CAUSE", "CONFIDENCE",
+        "OUTPUT", "DTM", "DSM", "CHM", "HILLSHADE", "EXPECTED_ERROR", "ERROR_CAUSE",
         "RELIEF", "CONTOURS", "PLACES",
     ],
     "bareearth:gridminimum": [
@@ -124,7 +124,7 @@ PARAMETERS = {
         "ERROR_FACTOR", "SURFACE_RETURNS", "SURFACE_CLASSES", "MAX_EDGE", "PIT_FREE",
         "RASTER_PER_FILE", "THREADS", "MEMORY", "EXTENT", "BOUNDARY",
         "BREAKLINES", "WATER", "RIVERS", "NO_GROUND", "LIKE", "RASTER_EXTENT",
-        "LIMIT", "DTM", "DSM", "CHM", "HILLSHADE", "EXPECTED_ERROR", "ERROR_CAUSE", "CONFIDENCE",
+        "LIMIT", "DTM", "DSM", "CHM", "HILLSHADE", "EXPECTED_ERROR", "ERROR_CAUSE",
     ],
     "bareearth:comparesettings": [
         "INPUT", "EXTENT", "CRS", "SETTINGS", "CONTEXT", "THREADS", "MEMORY", "LIMIT",
@@ -136,9 +136,9 @@ PARAMETERS = {
     ],
     "bareearth:check": [
         "INPUT", "CHECKPOINTS", "Z_FIELD", "COVER_FIELD", "NAME_FIELD", "DTM", "CRS",
-        "ACCURACY_CLASS", "SURVEY_ERROR", "MAX_EDGE", "MIN_CONFIDENCE", "HOLD_OUT",
+        "ACCURACY_CLASS", "SURVEY_ERROR", "MAX_EDGE", "HOLD_OUT",
         "GROUND_CLASSES", "OVERLAP", "VEGETATED", "EXPECTED_ERROR", "LOW_CONFIDENCE",
-        "CONFIDENCE", "EXTENT", "LIMIT", "OUTPUT", "REPORT",
+        "EXTENT", "LIMIT", "OUTPUT", "REPORT",
     ],
     "bareearth:review": [
         "INPUT", "DTM", "CAUSE", "POINTS", "EARLIER", "LEAST_ERROR", "LEAST_AREA", "MOST_PLACES",
@@ -195,7 +195,6 @@ OUTPUTS = {
         "HILLSHADE",
         "EXPECTED_ERROR",
         "ERROR_CAUSE",
-        "CONFIDENCE",
         "RELIEF",
         "CONTOURS",
         "PLACES",
@@ -226,7 +225,6 @@ OUTPUTS = {
         "HILLSHADE",
         "EXPECTED_ERROR",
         "ERROR_CAUSE",
-        "CONFIDENCE",
         "GROUND_COUNT",
         "SURFACE_COUNT",
     ],

@@ -178,7 +178,6 @@ def test_level_land_is_not_coloured_by_its_noise(tmp_path):
 @pytest.mark.parametrize(
     ("name", "expected"),
     [
-        ("confidence", (0.0, 1.0)),
         ("expected_error", (0.0, None)),
         ("error_map", (0.0, 1.0)),
         ("chm", (0.0, None)),
@@ -190,13 +189,6 @@ def test_ranges_that_mean_something_are_kept(tmp_path, name, expected):
     assert limits(layer)[0] == expected[0]
     if expected[1] is not None:
         assert limits(layer)[1] == expected[1]
-
-
-def test_a_map_of_sure_cells_is_not_blank(tmp_path):
-    layer = raster(tmp_path / "r.tif", np.ones((20, 20)))
-    draw("confidence", layer)
-    sure = colour_at([layer], 500_010, 5_699_990)
-    assert sure.lightness() < 220 and sure.green() > sure.red()
 
 
 def test_relief_has_its_middle_at_zero(tmp_path):
@@ -234,7 +226,7 @@ def test_no_raster_is_bare_and_grey(run, scene, tmp_path):
 
     ground = str(tmp_path / "ground.laz")
     processing.run(ALGORITHM, {"INPUT": str(scene.path), "OUTPUT": ground})
-    names = ("DTM", "DSM", "CHM", "HILLSHADE", "CONFIDENCE")
+    names = ("DTM", "DSM", "CHM", "HILLSHADE", "EXPECTED_ERROR")
     outputs = {key: tmp_path / f"{key}.tif" for key in names}
     run("bareearth:terrainmodel", {"INPUT": ground}, outputs)
     layers = {title_of(layer): layer for layer in QgsProject.instance().mapLayers().values()}
@@ -268,7 +260,7 @@ def test_legends_say_what_is_shown_and_its_unit(run, scene, tmp_path, monkeypatc
     # As in a window: the tree is there before the layers are.
     project = QgsProject.instance()
     model = QgsLayerTreeModel(project.layerTreeRoot())
-    names = ("DTM", "DSM", "CHM", "HILLSHADE", "CONFIDENCE", "RELIEF")
+    names = ("DTM", "DSM", "CHM", "HILLSHADE", "EXPECTED_ERROR", "RELIEF")
     outputs = {key: tmp_path / f"{key}.tif" for key in names}
     outputs["OUTPUT"] = tmp_path / "out.las"
     run("bareearth:pointcloudtoterrain", {"INPUT": str(scene.path)}, outputs)
@@ -282,7 +274,7 @@ def test_legends_say_what_is_shown_and_its_unit(run, scene, tmp_path, monkeypatc
     assert told.pop("Hillshade") == []
     assert {name: texts[0] for name, texts in told.items()} == {
         "Terrain model": "Height, m", "Surface model": "Height, m",
-        "Canopy height": "Height above ground, m", "Confidence": "Confidence, 0 to 1",
+        "Canopy height": "Height above ground, m", "Expected error": "Expected error (95 %), m",
         "Local relief": "Local relief, m",
     }  # fmt: skip
     monkeypatch.setattr(rasters, "tr", {"Height": "Höhe"}.get)

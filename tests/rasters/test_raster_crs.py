@@ -18,7 +18,7 @@ DATUMS = {
     'AXIS["Up",UP]]',
 }
 UNITS = {"dtm": "metre", "slope": "degree", "hillshade": None, "sky-view": None,
-         "openness": "degree", "confidence": None, "expected-error": "metre",
+         "openness": "degree", "expected-error": "metre",
          "relief": "metre"}  # fmt: skip
 
 

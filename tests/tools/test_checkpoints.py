@@ -180,16 +180,14 @@ def test_more_held_out_points_than_are_measured(survey, monkeypatch):
     assert found.left_out > 1_000 and found.all.count + found.no_height == 50
 
 
-def test_a_terrain_model_and_its_confidence(survey, tmp_path):
-    dtm, sure = tmp_path / "dtm.tif", tmp_path / "sure.tif"
-    assert main(["terrain", str(survey), "--dtm", str(dtm), "--confidence", str(sure)]) == 0
+def test_a_terrain_model(survey, tmp_path):
+    dtm = tmp_path / "dtm.tif"
+    assert main(["terrain", str(survey), "--dtm", str(dtm)]) == 0
     xy = places(60)
     done = check([survey], points(xy, 0.1), dtm=str(dtm))
     assert done.dtm_nva.count == 60
     assert done.dtm_nva.mean == pytest.approx(0.1, abs=0.01)
     assert "Terrain model: " in "\n".join(done.lines())
-    few = check([survey], points(xy), CheckOptions(min_confidence=0.99), confidence=str(sure))
-    assert 0 < len(few.not_counted["doubtful"]) == 60 - few.counted
 
 
 @pytest.mark.rest

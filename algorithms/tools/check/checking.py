@@ -51,14 +51,6 @@ class CheckOptions(ParameterSet):
         help="Checkpoints in triangles with a longer edge lie in a void of the ground, such as a"
         " building, and are not counted.",
     )
-    min_confidence: float = parameter(
-        0.5,
-        label="Least confidence",
-        minimum=0.0,
-        maximum=1.0,
-        advanced=True,
-        help="Checkpoints where the raster of confidence has less are not counted.",
-    )
     hold_out: float | None = parameter(
         None,
         kind="number",
@@ -77,7 +69,6 @@ def check_points(
     checkpoints: Checkpoints | None = None,
     dtm: str | None = None,
     vegetated: Sequence[str] | None = None,  # words of land covers; none: those that are known
-    confidence: str | None = None,
     expected_error: str | None = None,
     low_confidence: Sequence[Polygon] | None = None,
     report: Path | None = None,
@@ -105,8 +96,8 @@ def check_points(
     middle, errors, held_out = 0.95 if share is None else 0.5, None, None
     if checkpoints is not None:
         errors = residuals_of(
-            points, checkpoints, (dtm, confidence, expected_error), low_confidence or (),
-            tuple(vegetated or ()), options.max_edge, options.min_confidence,
+            points, checkpoints, (dtm, expected_error), low_confidence or (),
+            tuple(vegetated or ()), options.max_edge,
             progress.part(0.05, middle),
         )  # fmt: skip
     if share is not None:
@@ -251,16 +242,6 @@ TOOL = FileTool(
             advanced=True,
             is_last=True,
             may_be_empty=True,
-        ),
-        Input(
-            "confidence",
-            "raster",
-            help="The confidence of the terrain model, 0 to 1, as `terrain()` makes it. Checkpoints"
-            " where it is low are not counted.",
-            label="Confidence",
-            optional=True,
-            advanced=True,
-            is_last=True,
         ),
     ),
     outputs=(

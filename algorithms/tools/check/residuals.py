@@ -78,25 +78,23 @@ class Residuals(NamedTuple):
 def residuals_of(
     ground: SurveyGround,
     checkpoints: Checkpoints,
-    rasters: Sequence[str | None],  # a terrain model, its confidence and its expected error
+    rasters: Sequence[str | None],  # a terrain model and its expected error
     low_confidence: Sequence[Polygon],
     vegetated: tuple[str, ...],  # words
     max_edge: float,  # metres
-    min_confidence: float,
     progress: Progress,
 ) -> Residuals:
     """Return the errors at checkpoints."""
     survey, crs, up = ground.survey, ground.survey.crs, ground.survey.crs.vertical_unit
     checkpoints = checkpoints.located(ground.place, progress, max_edge)
     x, y, _ = checkpoints.xyz.T
-    model, confidence, error = (_raster(source, ground) for source in rasters)
+    model, error = (_raster(source, ground) for source in rasters)
     dtm = np.full(len(x), np.nan)
     if model is not None:
         dtm = HeightSampler(model).heights(x, y) * (model.unit or up) / up
     expected = np.full(len(x), np.nan)
     if error is not None:
         expected = HeightSampler(error).heights(x, y) * (error.unit or up)
-    sure = np.ones(len(x)) if confidence is None else HeightSampler(confidence).heights(x, y)
     if model is not None:
         _tell_of_gaps(checkpoints, np.isnan(dtm), progress)
     places = np.column_stack((x, y)) * crs.horizontal_unit
@@ -115,7 +113,6 @@ def residuals_of(
         **_of_lists(checkpoints, np.array(kinds) == CONTROL, known, places, up),
         "outside": is_void & ~_touches(survey, x, y),
         "void": is_void,
-        "doubtful": ~(sure >= min_confidence),
         LOW_CONFIDENCE: is_low,
     }
     states = np.select(list(reasons.values()), list(reasons), COUNTED)

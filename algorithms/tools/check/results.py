@@ -30,7 +30,6 @@ _MOST_NAMES = 30
 REASONS = {
     "outside": "outside of the survey",
     "void": "where there is no ground near",
-    "doubtful": "where the confidence is low",
     LOW_CONFIDENCE: "in low confidence areas, which have figures of their own",
     "control": "to which the survey was fitted (control)",
     NO_HEIGHT: "without a height (missing, or a nodata value such as 0 or -9999)",

@@ -14,7 +14,6 @@ from typing import Callable, NamedTuple
 import numpy as np
 
 from ...grids.canopy import PIT_PASSES, canopy_height, without_pits
-from ...grids.expected_error import share_over
 from ...rasters import looks
 from ...rasters.looks import Look, Picture, Ramp
 from ...relief.hillshade import hillshade, multidirectional_hillshade, slope
@@ -35,9 +34,6 @@ from ...relief.local_relief import (
 from ...relief.pictures import VAT_RADII, archaeological_topography, red_relief
 from ...relief.smoothing import smoothing_reach, without_noise
 from .parameters import SurfaceModel, TerrainModel
-
-# Distance in metres from the true terrain up to which a cell is right, for the confidence.
-_RIGHT = 0.3
 
 
 class How(NamedTuple):
@@ -123,10 +119,6 @@ def _scaled(error: np.ndarray, terrain: np.ndarray, how: How) -> np.ndarray:
     return np.where(np.isnan(terrain), np.nan, error * how.terrain.error_factor)
 
 
-def _confidence(error: np.ndarray, terrain: np.ndarray, how: How) -> np.ndarray:
-    return 1.0 - share_over(_RIGHT, _scaled(error, terrain, how))
-
-
 _relief = partial(Raster, is_relief=True, is_smoothed=True)
 
 RASTERS = {
@@ -193,17 +185,6 @@ RASTERS = {
         Look(Ramp(looks.CAUSES, 0.0, 7.0), 4, hides=1),
         layers=("error_cause", "terrain"),
         kind="uint8",
-    ),
-    "confidence": Raster(
-        "Confidence",
-        "The probability, 0 to 1, that the terrain model is at most 0.3 m off. It follows from the"
-        " expected error, which says more.",
-        "Confidence, 0 to 1",
-        _confidence,
-        # From 0 to 1, so that also a map of sure cells has a colour.
-        Look(Ramp(looks.CONFIDENCE, 0.0, 1.0), 5, hides=1),
-        layers=("expected_error", "terrain"),
-        label="Confidence of the terrain model",
     ),
     "relief": _relief(
         "Local relief",

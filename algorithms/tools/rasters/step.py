@@ -135,8 +135,8 @@ class MakeRasters(Drawing, Sink):
         """
         if self.needs_all and not all(step.writes_all for step in steps):
             raise BareEarthError(
-                "The surface model, the canopy height and the confidence need all points. Write"
-                " all points, not only the ground."
+                "The surface model, the canopy height and the expected error need all points."
+                " Write all points, not only the ground."
             )
 
     @property

@@ -22,7 +22,7 @@ from .rows import RASTERS, RasterFiles
 from .step import MakeRasters
 
 # The rasters that the dialog folds away.
-_FOLDED = ("error_cause", "confidence")
+_FOLDED = ("error_cause",)
 
 
 PLACES = Output(
