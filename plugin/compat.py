@@ -75,15 +75,6 @@ else:
 # Since QGIS 3.26.
 HAS_POINT_CLOUD_OUTPUTS = hasattr(core, "QgsProcessingParameterPointCloudDestination")
 
-# Since QGIS 3.42, virtual point clouds show their overview at small scales.
-SHOWS_OVERVIEWS = hasattr(core.QgsPointCloudRenderer, "setZoomOutBehavior")
-
-
-def show_overview(renderer: core.QgsPointCloudRenderer) -> None:
-    """Let a virtual point cloud show its overview at small scales, instead of outlines."""
-    if SHOWS_OVERVIEWS:
-        renderer.setZoomOutBehavior(Qgis.PointCloudZoomOutRenderBehavior.RenderOverview)
-
 
 def is_null(value: object) -> bool:
     """Return whether a Processing value is not set; the null of PyQt depends on the Qt version."""

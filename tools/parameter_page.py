@@ -23,7 +23,7 @@ _SECTIONS = {
     "Grid minimum": ("GridMinimum",),
     "Which points, which classes": ("Selection", "GroundClasses"),
     "Written point clouds": ("Output", "HeightOutput"),
-    "Many files": ("TileMethod", "TileInput", "ShownTiles", "TileOutput"),
+    "Many files": ("TileMethod", "TileInput", "TileOutput"),
     "Above the ground": ("AboveGround", "ThenAboveGround"),
     "Rasters": (
         "TerrainModel", "DeliveryTerrain", "RasterOutput", "SurfaceModel", "CanopyModel", "Gaps",

@@ -22,7 +22,6 @@ from ..engine.workers import Workers
 from ..report.units import Units
 from ..survey.feature_files import feature_writer
 from ..survey.files import Inputs, open_survey
-from ..survey.overview import overview_of
 from ..tools import any_tool
 from ..tools.rasters.constraints import Constraints
 from ..tools.rasters.parameters import TerrainModel
@@ -253,9 +252,9 @@ class DeliveryJob(Settings):
 
 
 def _files_of(result: SurveySummary) -> list[Path]:
-    """Return the files of points, their virtual point cloud and overview, and their records."""
+    """Return the files of points, their virtual point cloud, and their records."""
     vpc = Path(result.vpc)
-    names = {vpc.name, overview_of(vpc).name, *(tile.name for tile in result.tiles)}
+    names = {vpc.name, *(tile.name for tile in result.tiles)}
     records = folders_of(vpc.parent)[1]
     paths = sorted(path for path in vpc.parent.rglob("*") if path.is_file())
     return [path for path in paths if path.name in names or records in path.parents]

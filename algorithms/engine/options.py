@@ -37,10 +37,3 @@ class TileOutput(ParameterSet):
         help="Keeps the tiles that an earlier run finished, if they were made from the same files"
         " with the same parameters. All other tiles are classified again.",
     )
-    overview: bool = parameter(
-        False,
-        label="Overview of the virtual point cloud",
-        advanced=True,
-        help="Writes a few points of all tiles into a further COPC file beside the virtual point"
-        " cloud, if the tiles are COPC. QGIS 3.42 and newer shows them at small scales.",
-    )

@@ -211,7 +211,7 @@ class ManyFiles(Execution):
         self._copy_empty_files()
         paths = [target / summary.name for summary in self._done]
         part, stated = progress.part(0.98, 1.0), self._survey.stated
-        write_vpc(self.vpc, paths, part, self.output.overview, stated)
+        write_vpc(self.vpc, paths, part, stated)
         copied = len(self._survey.empty)
         unreadable = self._failures.keys() - self._inputs.keys()
         return SurveySummary(

@@ -135,21 +135,17 @@ def read_pages(hierarchy: Hierarchy) -> dict[int, np.ndarray]:
 
 
 def read_nodes(
-    hierarchy: Hierarchy, nodes: np.ndarray, is_whole: bool = False, times: bool = False
+    hierarchy: Hierarchy, nodes: np.ndarray, times: bool = False
 ) -> Iterator[laspy.PackedPointRecord]:
     """Yield the points of nodes, about a million at once, with the layers that a `PointCloud`
-    needs, or with all; GPS times are undefined unless wanted.
+    needs; GPS times are undefined unless wanted.
     """
     # If points lie outside the cubes of their nodes (an OctreeError), others may be missing.
-    import lazrs
-
     layout = hierarchy.layout
-    every = lazrs.DecompressionSelection(lazrs.SELECTIVE_DECOMPRESS_ALL)
-    selection = every if is_whole else selection_of(needed(layout, times))
+    selection = selection_of(needed(layout, times))
     with open_source(layout.path) as file:
         for batch, compressed in _batches(layout, nodes, file):
-            has_times = is_whole or times
-            records = _decompress(hierarchy, compressed, batch, selection, has_times)
+            records = _decompress(hierarchy, compressed, batch, selection, times)
             yield named(layout, records)
 
 

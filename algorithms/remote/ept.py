@@ -44,7 +44,7 @@ from .parts import Parts
 from .transfers import Transfers
 
 DESCRIPTION = "ept.json"
-_ENDINGS = {"laszip": "laz", "binary": "bin", "zstandard": "zst"}
+_ENDINGS = {"laszip": "laz", "binary": "bin"}
 Key = tuple[int, int, int, int]  # depth, x, y and z of a node
 _KEY = re.compile(r"(\d{1,2})-(\d{1,10})-(\d{1,10})-(\d{1,10})")
 _DEEPEST = 30
@@ -254,7 +254,7 @@ class EptPart:
         """Keep a tile if all of its points can be read."""
         if self.kind != "laszip":
             try:
-                data = self._schema.las(data, self.kind == "zstandard", self.tiles[key])
+                data = self._schema.las(data, self.tiles[key])
             except (ValueError, OverflowError) as error:
                 raise self._no_ept(f"tile {_name(key)} is damaged") from error
         self._parts.add_file(self._path(key).name, data)

@@ -79,12 +79,11 @@ class Schema:
         for name in self._extra:
             _TYPES[self._row[name].str[1:]]
 
-    def las(self, data: bytes, is_packed: bool, count: int) -> bytes:
+    def las(self, data: bytes, count: int) -> bytes:
         """Return the points of a tile as a LAS file without a CRS; ValueError if there are fewer or
         more.
         """
         size = count * self._row.itemsize
-        data = _unpacked(data, size) if is_packed else data
         if len(data) != size:
             raise ValueError(f"{len(data):,} bytes, not {size:,}")
         rows = np.frombuffer(data, dtype=self._row)
@@ -142,22 +141,6 @@ class Schema:
         fields.OFFSET.put(header, *self._offset)
         fields.COUNT.put(header, count)
         return bytes(header) + b"".join(vlr.raw for vlr in vlrs)
-
-
-def _unpacked(data: bytes, size: int) -> bytes:
-    """Return the bytes of a tile that is compressed by Zstandard, which must have this size."""
-    try:
-        import zstandard
-    except ImportError as error:
-        raise BareEarthError(
-            "The tiles are compressed by Zstandard: pip install zstandard, which reads them."
-        ) from error
-    try:
-        if zstandard.frame_content_size(data) not in (-1, size):  # it would take as much memory
-            raise ValueError("another size is stated")
-        return bytes(zstandard.ZstdDecompressor().decompress(data, max_output_size=size))
-    except zstandard.ZstdError as error:
-        raise ValueError(str(error)) from error
 
 
 def wkt_of(srs: object) -> str | None:

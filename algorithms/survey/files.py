@@ -25,11 +25,10 @@ from ..las.reading import read_parts
 from ..las.sources import read_text
 from .common_crs import common_crs, names_of
 from .copies import copies_in, tell_of_twins
-from .overview import is_overview
 from .pieces import Piece, pieces_of, tell_of_strays
 from .shapes import Place
 from .vpc import SUFFIX as VPC_SUFFIX
-from .vpc import no_extent, read_vpc
+from .vpc import is_overview, no_extent, read_vpc
 
 # What users give: a path, or several.
 Sources = Union[str, Path, Iterable[Union[str, Path]]]

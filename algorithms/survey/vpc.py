@@ -23,7 +23,6 @@ import numpy as np
 from ..core.errors import BareEarthError, printable
 from ..core.files import check_output, replacing
 from ..core.progress import SILENT, Progress
-from ..core.temporary import remove
 from ..crs.provider import to_wgs84
 from ..crs.system import compound_wkt
 from ..las.crs_records import read_crs
@@ -32,9 +31,10 @@ from ..las.header import CREATION
 from ..las.lasfile import LasFile
 from ..las.opening import open_las
 from ..las.sources import read_text
-from .overview import overview_of, write_overview
 
 SUFFIX = ".vpc"
+# Ending of the file with a few points of all files that `pdal_wrench build_vpc --overview` writes.
+_OVERVIEW = "-overview.copc.laz"
 _EXTENSIONS = [
     "https://stac-extensions.github.io/pointcloud/v1.0.0/schema.json",
     "https://stac-extensions.github.io/projection/v1.1.0/schema.json",
@@ -110,6 +110,12 @@ def read_vpc(path: Path) -> list[Path]:
     return files
 
 
+def is_overview(path: Path) -> bool:
+    """Return whether a file holds a few points of the files that the list beside it names."""
+    stem = path.name[: -len(_OVERVIEW)]
+    return path.name.endswith(_OVERVIEW) and path.with_name(f"{stem}{SUFFIX}").is_file()
+
+
 def check_vpc(path: Path) -> None:
     """Refuse a name that is not one of a virtual point cloud; raise BareEarthError."""
     if path.suffix.lower() != SUFFIX:
@@ -120,30 +126,24 @@ def write_vpc(
     path: Path,
     files: Iterable[Path],
     progress: Progress = SILENT,
-    overview: bool = False,
     stated: str | None = None,
 ) -> None:
     """Write a virtual point cloud with paths relative to its folder, so that it can be moved
-    together with the files; also write an overview, or remove an old one.
+    together with the files.
     """
     # QGIS shows the points of COPC files, and only outlines of other files. Only the headers of the
-    # files are read, and a few points for an overview.
+    # files are read.
     path, files = Path(path), [*map(Path, files)]
     check_vpc(path)
     if not files:
         raise BareEarthError(f"Cannot write {path}: there are no files to list. Give at least one.")
     check_output(path, tuple(files))
     layouts, features, unplaced = [open_las(file, stated) for file in files], [], 0
-    overview_path = _overview(path, layouts, progress.part(0.0, 0.9)) if overview else None
     for number, layout in enumerate(layouts, start=1):
         feature = _feature(path, layout)
         unplaced += not feature["properties"]["proj:wkt2"]
-        if overview_path is not None:
-            feature["assets"]["overview"] = {
-                "href": _reference(overview_path, path), "roles": ["overview"],
-            }  # fmt: skip
         features.append(feature)
-        progress.part(0.9, 1.0)(number / len(files))
+        progress(number / len(files))
     _make_ids_unique(features)
     if unplaced:
         progress.warning(
@@ -155,17 +155,6 @@ def write_vpc(
     )
     with replacing(path) as temporary:
         temporary.write_text(text + "\n", encoding="utf-8")
-    if overview_path is None and overview_of(path) not in files:
-        remove(overview_of(path))
-
-
-def _overview(path: Path, layouts: list[LasFile], progress: Progress) -> Path | None:
-    """Write the overview; if that fails, warn and return None, as the list is useful without it."""
-    try:
-        return write_overview(path, layouts, progress)
-    except BareEarthError as error:
-        progress.warning(f"{path.name} has no overview. {error}")
-        return None
 
 
 def _not_one(path: Path, why: str) -> BareEarthError:

@@ -48,7 +48,7 @@ COMMANDS = {
     "classify/out-of-core": "classify raw.laz OUT/a.laz --memory 0.001 --dtm OUT/dtm.tif",
     # Many files.
     "classify/survey-tin": f"classify raw OUT/tiles --dtm OUT/dtm.tif {_ALL_CLASSES} {_POINTS}"
-    " asprs --format copc.laz --overview --json",
+    " asprs --format copc.laz --json",
     "classify/survey-slope": f"classify raw OUT/tiles --method slope {_POINTS} ign --vpc"
     " OUT/all.vpc --corrections corrections.geojson --raster-per-file --dtm OUT/dtm.tif",
     "classify/survey-grid-minimum": "classify raw OUT/tiles --method grid-minimum --format las"

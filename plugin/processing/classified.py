@@ -8,7 +8,6 @@ from typing import Iterable
 from qgis.core import QgsProcessingContext, QgsProcessingUtils
 
 from ...algorithms.core.errors import BareEarthError, Cancelled
-from ...algorithms.survey.overview import overview_of
 from .. import compat
 from ..styles import clouds, layers
 from ..styles.rasters import is_class_raster
@@ -40,7 +39,7 @@ def show_classified(
     algorithm.show(cloud, layers.classes(classes, hides=hides if is_hiding else 0))
     if compat.can_load(cloud):
         if is_virtual:
-            _load_virtual(algorithm, cloud, classes, context)
+            compat.load_point_cloud(cloud, context)
         return
     progress.info(cannot_show(cloud))
     shown = [] if is_virtual else classes
@@ -81,17 +80,6 @@ def show_class_raster(
         return
     compat.load_raster(path, context)
     algorithm.show(path, layers.class_raster(list(classes) or found, hides))
-
-
-def _load_virtual(
-    algorithm: BareEarthAlgorithm, cloud: str, classes: list[int], context: QgsProcessingContext
-) -> None:
-    """Let QGIS load a virtual point cloud, and its overview if QGIS itself does not show it."""
-    compat.load_point_cloud(cloud, context)
-    overview = overview_of(Path(cloud))
-    if not compat.SHOWS_OVERVIEWS and overview.is_file():
-        compat.load_point_cloud(str(overview), context)
-        algorithm.show(str(overview), layers.overview(classes))
 
 
 def _place_of_raster(cloud: str) -> str:

@@ -48,7 +48,7 @@ def _written(cloud: str, is_survey: bool) -> tuple[str, TileOutput]:
     if not cloud or not is_survey:
         return cloud, TileOutput()
     name, ending = split_name(Path(cloud))
-    tiles = TileOutput(ending[1:].lower() or "same", overview=True)
+    tiles = TileOutput(ending[1:].lower() or "same")
     return str(Path(cloud).with_name(name)), tiles
 
 
@@ -143,7 +143,7 @@ class CompositionAlgorithm(ToolAlgorithm):
         _, parameters, context, _ = request
         chosen = self.chosen(parameters, context)
         sets = [values for values in chosen if not isinstance(values, DeliveryChoice)]
-        sets.append(TileOutput(format=point_cloud_formats()[0], overview=True))
+        sets.append(TileOutput(format=point_cloud_formats()[0]))
         folder = self.parameterAsString(parameters, FOLDER, context)
         self._find_late(request)
         words = [name, *self.source_words(), folder]

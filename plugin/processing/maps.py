@@ -10,7 +10,7 @@ from ...algorithms.classes.selection import Selection
 from ...algorithms.core.parameters import ParameterSet
 from ...algorithms.tools import map_tool
 from ...algorithms.tools.declaration import MapTool
-from ...algorithms.tools.ground.dialogs import METHOD_TOOLS, as_command
+from ...algorithms.tools.ground.dialogs import METHOD_TOOLS
 from ...algorithms.tools.ground.output import Output
 from ...algorithms.tools.rasters.parameters import RasterOutput, TerrainModel
 from ..i18n import mark
@@ -90,7 +90,7 @@ class MapAlgorithm(ToolAlgorithm):
             raise Refusal(mark("Choose at least one raster to make."))
         options = {"method": self._tool.method, **self._options(paths)}
         extent = options.pop("extent", None)
-        line = command_line(self._tool.command, self._words(paths), as_command(chosen), options)
+        line = command_line(self._tool.command, self._words(paths), chosen, options)
         return " ".join([line, "--extent", *extent] if extent else [line])
 
 

@@ -25,7 +25,6 @@ from qgis.PyQt.QtGui import QColor, QPainter
 
 from ...algorithms.las.copc_sample import sample_of
 from ...algorithms.rasters.looks import HEIGHTS, Stops
-from .. import compat
 from ..i18n import mark, tr
 
 _GROUND = 2
@@ -165,4 +164,3 @@ def _draw_from_above(renderer: QgsPointCloudRenderer, layer: QgsPointCloudLayer)
     renderer.setPointSize(_METRES)
     renderer.setPointSizeMapUnitScale(size)
     renderer.setMaximumScreenError(_SCREEN_ERROR)
-    compat.show_overview(renderer)

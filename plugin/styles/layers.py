@@ -133,11 +133,6 @@ def classes(values: Iterable[int], title: str = CLASSES, hides: int = CLOUD) -> 
     return Look(title, 7, clouds.by_class(values), hides)
 
 
-def overview(values: Iterable[int]) -> Look:
-    """Return the look of the overview of a virtual point cloud, just below that."""
-    return Look(mark("Overview of the classes"), 6, clouds.by_class(values), CLOUD)
-
-
 def class_raster(values: Iterable[int], hides: int = CLOUD) -> Look:
     """Return the look of a raster of classes."""
     return Look(CLASSES, 7, rasters.classes(clouds.categories_of(values)), hides)

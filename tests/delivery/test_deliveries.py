@@ -260,7 +260,7 @@ def test_ground_in_the_water_of_a_survey_has_the_classes_of_the_specification(
 ):
     water, truth = given_water(distance)
     how = {**QUICK, "specification": specification, "water": water}
-    summary = deliver(scene[1 if is_one else 2], tmp_path / "out", overview=True, **how)
+    summary = deliver(scene[1 if is_one else 2], tmp_path / "out", **how)
     clouds = [laspy.read(path) for path in (tmp_path / "out" / "points").glob("*st.laz")]
     clouds = [laspy.read(summary.cloud)] if is_one else clouds
     assert len(clouds) == 2 - is_one
@@ -295,15 +295,13 @@ def test_key_points_are_among_the_ground_that_water_leaves(scene, watered, tmp_p
 @pytest.mark.rest
 def test_the_lists_of_files_with_classes_of_water_are_those_of_their_places(scene, tmp_path):
     water, _ = given_water(0.71)
-    how = {**QUICK, "format": "copc.laz", "overview": True}
+    how = {**QUICK, "format": "copc.laz"}
     summary = deliver(scene[2], tmp_path / "out", water=water, **how)
     points = tmp_path / "out" / "points"
     tiles = {"east.copc.laz", "west.copc.laz"}
-    lists = {"classified.vpc", "classified-overview.copc.laz"}
-    assert {path.name for path in points.iterdir()} == tiles | lists
+    assert {path.name for path in points.iterdir()} == {*tiles, "classified.vpc"}
     listed = json.loads(Path(summary.cloud).read_text())["features"]
     assert {Path(tile["assets"]["data"]["href"]).name for tile in listed} == tiles
-    assert 9 in classes_of(points / "classified-overview.copc.laz")
     files = json.loads((tmp_path / "out" / "delivery.json").read_text())["files"]
     assert {file for file in files if not (tmp_path / "out" / file).is_file()} == set()
     assert {name for name in os.listdir(tmp_path / "out") if name[0] == "."} == {".bare-earth"}

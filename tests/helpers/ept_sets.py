@@ -6,7 +6,6 @@ import json
 
 import laspy
 import numpy as np
-import pytest
 
 WKT = (
     'PROJCS["ETRS89 / UTM zone 32N",GEOGCS["ETRS89",DATUM["ETRS89",SPHEROID["GRS 1980",6378137,'
@@ -97,11 +96,8 @@ def parts_of_ept(point_format, pages, kind):
             offset = [500_000 + depth, 5_600_000, 0]
             if kind == "laszip":
                 files[f"ept-data/{key}.laz"] = tile_of(inside, point_format, offset)
-            elif kind == "binary":
-                files[f"ept-data/{key}.bin"] = rows_of(inside)
             else:
-                packed = pytest.importorskip("zstandard").compress(rows_of(inside))
-                files[f"ept-data/{key}.zst"] = packed
+                files[f"ept-data/{key}.bin"] = rows_of(inside)
             if depth == 2 and pages:
                 above = "-".join(map(str, (1, *(cell // 2))))
                 branches.setdefault(above, {})[key] = len(inside)

@@ -37,7 +37,7 @@ USES = {
     "        bare_earth.classify('tile.laz', 'done', scheduler=cluster.scheduler_address)",
     "xarray": "dtm = arrays.terrain(laspy.read('ground.laz'))['dtm'].to_xarray()\n"
     "assert dtm.dims == ('y', 'x')",
-    "remote": "import zstandard, s3fs, fsspec\n"
+    "remote": "import s3fs, fsspec\n"
     "from fsspec.implementations.memory import MemoryFileSystem\n"
     "fsspec.register_implementation('s3', MemoryFileSystem, clobber=True)\n"
     "fsspec.filesystem('s3').pipe('s3://a/tile.copc.laz', open('tile.copc.laz', 'rb').read())\n"

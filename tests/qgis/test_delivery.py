@@ -208,7 +208,7 @@ def test_a_folder_of_files_is_delivered_as_one_survey(deliver, scene, tmp_path):
     tiles.mkdir()
     shutil.copy(scene.path, tiles)
     results, _, _ = deliver("forestry", INPUT=None, INPUT_FOLDER=str(tiles))
-    # COPC where QGIS shows it; then there is also an overview of all files.
+    # COPC where QGIS shows it.
     (cloud,) = (tmp_path / "delivery" / "points").glob(f"{Path(scene.path).stem}.*la[sz]")
     assert "HeightAboveGround" in list(laspy.read(str(cloud)).point_format.dimension_names)
     assert results["GROUND_COUNT"] == scene.ground_count

@@ -10,6 +10,7 @@ from runs import Heard
 from bare_earth import BareEarthError
 from bare_earth.algorithms.crs import provider
 from bare_earth.algorithms.crs.provider import to_wgs84, wkt_of_epsg
+from bare_earth.algorithms.survey.files import find_files
 from bare_earth.algorithms.survey.vpc import read_vpc, write_vpc
 
 UTM = "EPSG:32632"
@@ -141,6 +142,15 @@ def test_the_points_are_taken_and_not_the_overview(las):
     item = {"properties": {}, "assets": assets}
     path.write_text(json.dumps({"type": "FeatureCollection", "features": [item]}))
     assert [file.name for file in read_vpc(path)] == ["a.laz"]
+
+
+def test_the_files_of_a_folder_do_not_include_an_overview_of_them(las):
+    file, overview = las.make("a.copc.laz"), las.make("all-overview.copc.laz")
+    vpc_of(las, "./a.copc.laz").rename(las.folder / "all.vpc")
+    assert find_files([las.folder]) == [file]
+    # Without its list it is a file like others.
+    (las.folder / "all.vpc").unlink()
+    assert find_files([las.folder]) == [file, overview]
 
 
 @pytest.mark.parametrize(

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from typing import Iterable, NamedTuple
+from dataclasses import replace
+from typing import NamedTuple
 
 from ...classes.selection import Selection
-from ...core.parameters import ParameterSet, parameter_of
 from ...engine.memory import Resources
 from ...engine.options import TileInput, TileOutput
 from ...filters import METHODS
@@ -87,20 +86,6 @@ _FOLDER = Output(
 )
 
 
-@dataclass(frozen=True)
-class ShownTiles(TileOutput):
-    """How tiles are written, with an overview by default, since QGIS shows them at once."""
-
-    overview: bool = parameter_of(TileOutput, "overview", default=True)
-
-
-def as_command(sets: Iterable[ParameterSet]) -> list[ParameterSet]:
-    """Return parameter sets of a dialog as those of the command, whose defaults differ."""
-    return [
-        TileOutput(**vars(values)) if isinstance(values, ShownTiles) else values for values in sets
-    ]
-
-
 def _usual_maps() -> list[Output]:
     named = {output.name: output for output in maps()}
     errors = (
@@ -147,7 +132,7 @@ TILES_TOOL = replace(
     ),
     dialog_outputs=lambda: (_FOLDER, LIST_OUTPUT, *_usual_maps()),
     dialog_sets=(
-        TileMethod, Selection, TileInput, ShownTiles, Written, ThenAboveGround, TerrainModel, Gaps,
+        TileMethod, Selection, TileInput, TileOutput, Written, ThenAboveGround, TerrainModel, Gaps,
         RasterOutput, Resources,
     ),
     identifier="classifytiles",
