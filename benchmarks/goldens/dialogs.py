@@ -40,7 +40,7 @@ RUNS: dict[str, tuple[str, dict[str, Any]]] = {
         "INPUT": "raw.laz", "EXTENT": "569970,570020,5932470,5932530 [EPSG:25832]",
         "CORRECTIONS": "corrections.geojson", "CORRECTIONS_FIELD": "class", **_KNOWN,
         "OUTPUT": "OUT/a.laz", "DTM": "OUT/dtm.tif", "HILLSHADE": "OUT/shade.tif",
-        "LOOKS": "5", "EXPECTED_ERROR": "OUT/error.tif",
+        "EXPECTED_ERROR": "OUT/error.tif",
     }),
     "grid-minimum": ("gridminimum", {
         "INPUT": "raw.laz", "BOUNDARY": "boundary.geojson", "AREA_ONLY": True,
