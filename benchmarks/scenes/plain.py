@@ -154,6 +154,7 @@ stacks=boxes 10x8x1.2x4x2/0/8 10x8x2.4x5x2/3/4
 barges=boxes 50x9x2.5x2x3/0/2 40x8x3x1x4/0/2
 containers=boxes 12.2x2.5x2.6x1x4/0/8 6x2.5x2.6x0.5x6/2/4
 sheds=boxes 3x3x2.4x6x4/5/4
+cushions 4x1.8x8/0/20 5x2x6/15/30 3x1.2x10/5/12
 cars=boxes 4.5x1.8x1.5x1x6/0/8 4.5x1.8x1.5x1.5x5/5/4
 lorries=boxes 14x2.5x3.6x1.5x4/0/4
 wood-stacks=boxes 12x1.5x2.2x3x3/5/8

@@ -260,6 +260,14 @@ def domes(u, v, width, height, gap, count):
     return np.where(r <= 1.0, height * (0.35 + 0.65 * np.sqrt(np.clip(1 - r**2, 0, 1))), -np.inf)
 
 
+def cushions(u, v, width, height, count):
+    """Dense bushes in a row, which touch, each second one lower."""
+    across, low = _row(u, width, 0.0, count), np.mod(np.floor(u / width + count / 2), 2.0)
+    r = 2.0 * np.hypot(across, v) / width
+    arch = (1.0 - 0.4 * low) * height * np.sqrt(np.clip(1.0 - r**2, 0.0, 1.0))
+    return np.where(r <= 1.0, arch, -np.inf)
+
+
 def crop_rows(u, v, height, cover, apart):
     """Rows of a crop, whose cover is in percent."""
     on = np.abs(np.mod(v / apart, 1.0) - 0.5) < cover / 200.0

@@ -21,6 +21,7 @@ GO = (
     "blocks-25x15x5x3x3-slope0-8pm2-a", "grandstand-14x50x2.2-slope0-4pm2-a",
     "solar-park-40x3x0.5x0.36x3.5x6-slope5-8pm2-a", "stacks-10x8x1.2x4x2-slope0-8pm2-b",
     "low-hedges-40x2x1.5x15x2-slope0-8pm2-b", "layers-20x12x10-slope0-8pm2-a",
+    "cushions-4x1.8x8-slope0-20pm2-a", "cushions-3x1.2x10-slope5-12pm2-b",
 )  # fmt: skip
 
 
@@ -55,3 +56,12 @@ def test_a_bank_has_smooth_sides_and_a_hedge_has_not(height):
     leaves = np.where(rise > 0.0, height * random.uniform(0.0, 1.0, len(x)), 0.0)
     banks = [Bunds().on_bank(Points(x, y, heights), heights) for heights in (rise, leaves)]
     assert banks[0][rise > 0.0].mean() > 0.7 and not banks[1].any()
+
+
+def test_a_bank_is_as_high_along_its_crest_and_bushes_in_a_row_are_not():
+    random = np.random.default_rng(9)
+    x, y = random.uniform((-3.0, -20.0), (3.0, 20.0), (4000, 2)).T
+    bank = np.clip(1.8 - np.abs(x), 0.0, 1.5)
+    bushes = 1.5 * np.sqrt(np.clip(1.0 - (np.hypot(x, np.mod(y, 5.0) - 2.5) / 2.5) ** 2, 0.0, None))
+    found = [Bunds().on_bank(Points(x, y, heights), heights) for heights in (bank, bushes)]
+    assert found[0][bank > 0.0].mean() > 0.7 and not found[1].any()

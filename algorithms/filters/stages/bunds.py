@@ -14,6 +14,9 @@ from ..pipeline import PointRule, Stage
 from ..state import State
 
 _LEAST_SQUARE = 1e-6  # added to the variances of places, in square metres
+_RAISED = 0.3  # share of the height of a strip above which points are compared with its crest
+_UNEVEN = 0.1  # largest share of a strip that may be lower than its crest
+_HIGH = 90.0  # percentage of the heights that are below this crest: the others are of bushes
 
 
 @dataclass(frozen=True)
@@ -26,7 +29,7 @@ class Bunds(PointRule):
     stage: ClassVar = Stage.SEEDS
     writes: ClassVar = ("seeds",)
 
-    area: float = 20.0  # least area in square metres
+    area: float = 50.0  # least area in square metres
     height: float = 1.2  # largest median height above the ground in metres
     width: float = 6.0  # largest width in metres
     # Sides are what lies between these shares of the height, in classes of height of which each has
@@ -40,12 +43,17 @@ class Bunds(PointRule):
     # Largest median distance of the points from these planes, as a share of the height.
     smooth: float = 0.06
     steepest: float = 1.7  # largest median slope of these planes, rise over run
+    # Bushes in a row have smooth sides, too, but no crest: `beside` metres beyond half its width, a
+    # strip has at least this share of the height that it has within `along` metres.
+    beside: float = 1.0
+    along: float = 6.0
+    crest: float = 0.85
 
     def apply(self, state: State) -> None:
         """Add the points of banks to the seeds."""
         banks = [
-            which[self.on_bank(state.points.take(which), above)]
-            for which, above in self._strips(state)
+            which[self.on_bank(state.points.take(which), above, half)]
+            for which, above, half in self._strips(state)
         ]
         if banks:
             # `numpy.union1d` takes a hundred times as long.
@@ -54,9 +62,9 @@ class Bunds(PointRule):
                 seeds[some] = True
             state.seeds = np.flatnonzero(seeds)
 
-    def _strips(self, state: State) -> Iterator[tuple[np.ndarray, np.ndarray]]:
-        """Yield the points of each low, narrow strip without seeds and of the cells beside it, and
-        their heights above the surface of the seeds.
+    def _strips(self, state: State) -> Iterator[tuple[np.ndarray, np.ndarray, float]]:
+        """Yield the points of each low, narrow strip without seeds and of the cells beside it,
+        their heights above the surface of the seeds, and half the width of its cells in metres.
         """
         from scipy import ndimage
 
@@ -71,7 +79,8 @@ class Bunds(PointRule):
             return
         surface, all_of_them = grid.heights.where(has_seed).filled(), np.arange(count + 1)
         inside = ndimage.distance_transform_cdt(np.pad(raised, 1), "chessboard")[1:-1, 1:-1]
-        fits &= 2 * size * ndimage.maximum(inside, number, all_of_them) <= self.width + size
+        half = size * ndimage.maximum(inside, number, all_of_them)
+        fits &= 2 * half <= self.width + size
         above = np.where(raised, grid.heights.values - surface, 0.0)
         fits &= ndimage.median(above, number, all_of_them) <= self.height
         around = within_square(np.maximum, np.where(fits[number], number, 0), 1)
@@ -85,11 +94,11 @@ class Bunds(PointRule):
         for each in np.flatnonzero(fits):
             part = slice(ends[each - 1], ends[each])
             is_low = above[part] <= self.top
-            yield which[part][is_low], above[part][is_low]
+            yield which[part][is_low], above[part][is_low], float(half[each])
 
-    def on_bank(self, points: Points, above: np.ndarray) -> np.ndarray:
+    def on_bank(self, points: Points, above: np.ndarray, half: float = 1.0) -> np.ndarray:
         """Return which points (n,) of a strip are smooth parts of a bank, given their heights above
-        the ground round it; none if it is no bank.
+        the ground round it and half its width in metres; none if it is no bank.
         """
         if len(above) < self.nearest:
             return np.zeros(len(above), dtype=bool)
@@ -102,9 +111,29 @@ class Bunds(PointRule):
         if np.count_nonzero(side) < self.share * np.count_nonzero(above > low):
             return none
         above_plane, apart, slope = _planes(points, self.nearest)
-        is_bank = np.median(apart[side]) <= self.smooth * height
-        is_bank &= np.median(slope[side]) <= self.steepest
-        return np.abs(above_plane) <= self.smooth * height if is_bank else none
+        if np.median(apart[side]) > self.smooth * height or np.median(slope[side]) > self.steepest:
+            return none
+        smooth = np.abs(above_plane) <= self.smooth * height
+        raised = smooth & (above > _RAISED * height)
+        return smooth if self._has_crest(points.take(raised), above[raised], half) else none
+
+    def _has_crest(self, points: Points, above: np.ndarray, half: float) -> bool:
+        """Return whether a strip is as high as a few metres farther along it, almost everywhere."""
+        from scipy.spatial import cKDTree
+
+        squares, square = np.unique(
+            np.floor(points.x) + 1j * np.floor(points.y), return_inverse=True
+        )
+        highest = np.zeros(len(squares))
+        np.maximum.at(highest, square, above)
+        places = np.column_stack((squares.real, squares.imag))
+        tree = cKDTree(places)
+        here, along = (
+            [np.percentile(highest[near], rank) for near in tree.query_ball_point(places, reach)]
+            for reach, rank in zip((half + self.beside, self.along), (100.0, _HIGH))
+        )
+        lower = np.array(here) < self.crest * np.array(along)
+        return len(lower) > 0 and bool(np.mean(lower) <= _UNEVEN)
 
 
 def _planes(points: Points, count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
