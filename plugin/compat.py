@@ -38,6 +38,7 @@ if hasattr(Qgis, "ProcessingParameterFlag"):
     LINES = Qgis.ProcessingSourceType.VectorLine
     TABLES = Qgis.ProcessingSourceType.Vector  # with or without geometry
     FILES = Qgis.ProcessingSourceType.File
+    TERRAINS = [Qgis.ProcessingSourceType.Raster, Qgis.ProcessingSourceType.PointCloud]
     FOLDER = Qgis.ProcessingFileParameterBehavior.Folder
 else:
     ADVANCED = QgsProcessingParameterDefinition.Flag.FlagAdvanced
@@ -48,6 +49,7 @@ else:
     LINES = QgsProcessing.SourceType.TypeVectorLine
     TABLES = QgsProcessing.SourceType.TypeVector
     FILES = QgsProcessing.SourceType.TypeFile
+    TERRAINS = [QgsProcessing.SourceType.TypeRaster, QgsProcessing.SourceType.TypePointCloud]
     FOLDER = QgsProcessingParameterFile.Behavior.Folder
 
 # QGIS 3.36 moved this one, too.

@@ -36,6 +36,7 @@ _SECTIONS = {
     "Remote point clouds": ("Download",),
     "Checkpoints": ("Accuracy", "CheckOptions"),
     "Places to review": ("Review",),
+    "Change": ("Comparison", "Places"),
     "Quality": ("QualityOptions",),
     "Comparison with a reference": ("AssessmentOptions",),
     "Compare settings": ("TrialOptions",),

@@ -29,6 +29,8 @@ _METAVARS = {
     "crs": "CRS", "checkpoints_crs": "CRS",
     "columns": "x=E,y=N,z=H,cover=Class,type=Use,name=ID",
 }  # fmt: skip
+# Kinds of values that are arguments without a flag if the command needs them.
+_NEEDED = ("path", "text", "cloud", "raster", "terrain")
 _BOX = ("XMIN", "YMIN", "XMAX", "YMAX")
 
 
@@ -82,7 +84,7 @@ def _add_argument(parser: argparse.ArgumentParser, argument: Argument) -> None:
         parser.add_argument(name, metavar="INPUT", nargs="+", help=text)
     elif argument.kind == KINDS["number"]:
         parser.add_argument(_option(name), type=float, metavar=metavar, help=text)
-    elif is_needed and argument.kind in map(KINDS.get, ("path", "text", "cloud", "raster")):
+    elif is_needed and argument.kind in map(KINDS.get, _NEEDED):
         parser.add_argument(name, metavar=_METAVARS.get(name, name.upper()), help=text)
     elif argument.kind == KINDS["extent"]:
         parser.add_argument(_option(name), nargs=4, type=float, metavar=_BOX, help=text)

@@ -25,7 +25,7 @@ def names() -> list[str]:
 def array_names() -> list[str]:
     """Return the names of all functions on arrays."""
     return [
-        "above_ground", "blocks", "check", "classify", "contours", "expected_error",
+        "above_ground", "blocks", "change", "check", "classify", "contours", "expected_error",
         "ground", "heights", "key_points", "relief", "remove_off_terrain_objects", "residuals",
         "terrain", "water",
     ]  # fmt: skip

@@ -52,6 +52,7 @@ KINDS = {
     "path": Kind(_PATH, "path"),
     "number": Kind("float", "float"),
     "raster": Kind("Any", "path, Raster or xarray.DataArray"),
+    "terrain": Kind("Any", "path of a raster or of points, Raster or xarray.DataArray"),
     "polygons": Kind("Any", "path or polygons", f"Files are {FORMATS}."),
     "lines": Kind("Any", "path or lines", f"Files are {FORMATS}."),
     "points": Kind(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Sequence
@@ -11,6 +12,7 @@ from ..core.parameters import ParameterSet
 from ..rasters.content import NO_CELLS
 from ..rasters.geotiff import read_raster
 from ..tools import file_tool
+from ..tools.change import Comparison, change
 from ..tools.contours import Contours, contours_of
 from ..tools.off_terrain import OffTerrain, remove_objects_file
 from ..tools.relief import KINDS, ReliefKinds, ReliefPictures, draw_reliefs
@@ -107,4 +109,41 @@ def of_removal() -> Function:
         (OffTerrain,),
         _bare,
         gives=Kind("Raster", "The heights on the same grid."),
+    )
+
+
+_DATES = (
+    replace(_RASTER[0], name="old", help=f"The older terrain. {_RASTER[0].help}"),
+    replace(_RASTER[0], name="new", help="The newer terrain, in the same way."),
+)
+_ERRORS = (
+    Argument.of("old_error", "raster", "The expected error of the old terrain."),
+    Argument.of("new_error", "raster", "The expected error of the new terrain."),
+)
+
+
+def _change(values: SimpleNamespace, sets: Sequence[ParameterSet]) -> dict[str, Raster]:
+    """Return the difference of two terrains, and the detection limit."""
+    collected, errors = Collected(), (values.old_error, values.new_error)
+    old_error, new_error = (one if one is None else heights_of(one) for one in errors)
+    change(
+        heights_of(values.old), heights_of(values.new), Path("difference"), Path("limit"),
+        old_error=old_error, new_error=new_error, comparison=Comparison.among(sets),
+        progress=progress_of(values.progress), write=collected.add, no_data=math.nan,
+    )  # fmt: skip
+    return collected.rasters
+
+
+def of_change() -> Function:
+    """Return the function `change`."""
+    return Function(
+        "change",
+        f"{file_tool('change').line}\nThe cells are those that change() writes for files with the"
+        " same cells; cells without data are NaN.",
+        _DATES,
+        (*_ERRORS, arguments.PROGRESS),
+        (Comparison,),
+        _change,
+        without=("find_ground", "cell_size"),
+        gives=Kind("dict[str, Raster]", "The difference and the detection limit (95 %)."),
     )

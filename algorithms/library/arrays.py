@@ -40,7 +40,7 @@ from . import arguments, tool_commands
 from .arguments import Argument, Kind
 from .array_arguments import ATTRIBUTES, GROUND, LAST, POINTS
 from .array_figures import of_check, of_residuals, of_water
-from .array_rasters import of_contours, of_relief, of_removal
+from .array_rasters import of_change, of_contours, of_relief, of_removal
 from .blocks import are_blocks, blocks_of
 from .functions import PACKAGE, Function, Run
 from .given import (
@@ -284,6 +284,7 @@ FUNCTIONS: dict[str, Callable[[], Function]] = {
         _CLASSES_KIND,
         _classes,
     ),
+    "change": of_change,
     "contours": of_contours,
     "expected_error": lambda: _of_raster(
         "expected_error",
@@ -318,7 +319,8 @@ FUNCTIONS: dict[str, Callable[[], Function]] = {
 @cache
 def declared(name: str) -> Function:
     """Return what is declared of a function."""
-    return replace(FUNCTIONS[name](), without=_OF_FILES)
+    made = FUNCTIONS[name]()
+    return replace(made, without=(*made.without, *_OF_FILES))
 
 
 @cache

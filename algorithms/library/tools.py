@@ -152,7 +152,7 @@ def input_of(declared: Input, values: SimpleNamespace) -> object:
         return value
     if declared.kind == "extent":
         return tuple(map(float, value))
-    if declared.kind == "raster":
+    if declared.kind in ("raster", "terrain"):
         return declared.of(heights_of(value))
     return Path(value) if declared.kind == "cloud" else declared.of(str(value))
 

@@ -35,6 +35,10 @@ CAUSES: Stops = (
 RISES: Stops = (
     (0.0, "#21598f"), (0.3, "#8fbbd9"), (0.5, "#00f5f3ee"), (0.7, "#e3a07a"), (1.0, "#9c2f2b"),
 )  # fmt: skip
+# What sank in red, and what rose in blue, with a transparent middle.
+CHANGES: Stops = (
+    (0.0, "#9c2f2b"), (0.3, "#e3a07a"), (0.5, "#00f5f3ee"), (0.7, "#8fbbd9"), (1.0, "#21598f"),
+)  # fmt: skip
 # Densities, dark where they are high, as on the page about the quality of a survey.
 DENSITY: Stops = (
     (0.0, "#f7fbff"), (0.25, "#c6dbef"), (0.5, "#6baed6"), (0.75, "#2171b5"), (1.0, "#08306b"),

@@ -28,7 +28,7 @@ class RasterWindows:
     """The cells of a raster file in the order of the file, times a factor; NaN without value."""
 
     def __init__(self, raster: Raster, factor: float = 1.0) -> None:
-        self.shape, self._raster, self._stored = raster.whole, raster, raster.stored
+        self.shape, self.raster, self._stored = raster.whole, raster, raster.stored
         self._factor, self._first = np.float32(factor), 0
         self._held = np.zeros((0, raster.whole[1]), dtype=np.float32)
 
@@ -50,7 +50,7 @@ class RasterWindows:
         end = min(end, self.shape[0])
         cells = np.full((end - start, self.shape[1]), np.nan, dtype=np.float32)
         for first, last in self._stored.runs(start, end):
-            cells[:, first:last] = self._raster.rows(start, end, first, last)
+            cells[:, first:last] = self.raster.rows(start, end, first, last)
         cells *= self._factor
         return cells
 

@@ -24,6 +24,11 @@ class Units(NamedTuple):
         """Symbol of the vertical unit."""
         return _symbol(self.vertical)
 
+    @property
+    def cubic(self) -> str:
+        """Symbol of the unit of volumes."""
+        return f"{self.across}³" if self.across == self.up else f"{self.across}² {self.up}"
+
     def length(self, metres: float, digits: int = 3) -> str:
         """Return a length in the unit of the survey, and in metres if that is another unit."""
         if self.horizontal == 1.0:

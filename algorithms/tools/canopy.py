@@ -62,7 +62,7 @@ class _Heights:
         self._terrain_unit = of_terrain.frame.vertical_unit
         _refuse_other_crs(surface, of_terrain, terrain, progress)
         self._terrain: Raster | HeightSampler = of_terrain
-        if not _is_same_grid(surface, of_terrain):
+        if not is_same_grid(surface, of_terrain):
             progress.info(
                 f"{terrain} is not on the grid of {surface.source}: its heights are interpolated"
                 " at the centres of these cells."
@@ -153,7 +153,7 @@ def _parts(
         progress(end / heights.surface.whole[0])
 
 
-def _is_same_grid(one: Raster, other: Raster) -> bool:
+def is_same_grid(one: Raster, other: Raster) -> bool:
     """Return whether two rasters have the same cells."""
     size = abs(one.geotransform[1]) + abs(one.geotransform[2])
     # Differences of the sides of cells add up over the raster.

@@ -37,6 +37,7 @@ class Input:
     # same, in a dialog a file or a folder;
     # "address": of a remote file, or a path (text);
     # "raster": a file with a band of heights (its path, or another name that GDAL knows);
+    # "terrain": the same, or a point cloud, a file or a folder;
     # "crs": the CRS of the points, if the user states it (text; "clouds" know it);
     # "area" (an `Area`) and "polygons" (what `of` returns): only of tools for points;
     # "extent": a rectangle in the CRS of the points (a `Box`);

@@ -72,6 +72,9 @@ FILE_TOOLS = {
     "review": Listed(
         "review", "Finds where a terrain model may be wrong: what to look at first, and why."
     ),
+    "change": Listed(
+        "change", "Finds where the ground changed between two surveys, how much, and how surely."
+    ),
     "relief": Listed(
         "relief",
         "Shows mounds, walls, ditches and old paths: sky view, openness, local relief, VAT.",

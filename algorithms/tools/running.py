@@ -27,7 +27,7 @@ from .declaration import FileTool, MapTool, Output, PointTool, ToFind, Tool
 if TYPE_CHECKING:
     from ..engine.workers import Workers
 
-_FILES = ("cloud", "raster", "address")
+_FILES = ("cloud", "raster", "terrain", "address")
 
 
 def run(

@@ -22,6 +22,7 @@ from qgis.core import (
     QgsProcessingContext,
     QgsProcessingFeatureSource,
     QgsProcessingParameterFile,
+    QgsProcessingParameterMapLayer,
     QgsProcessingParameterMultipleLayers,
     QgsProcessingParameterPointCloudLayer,
     QgsProcessingUtils,
@@ -135,6 +136,47 @@ class SurveyInput(PointCloudInput):
     def createFileFilter(self) -> str:
         """Return the file types for the button "..."."""
         return _filter("*.las *.laz *.vpc *.txt *.LAS *.LAZ")
+
+
+class TerrainInput(QgsProcessingParameterMapLayer):
+    """A raster layer, a point cloud layer, or any existing file or folder."""
+
+    def __init__(self, *arguments: object) -> None:
+        super().__init__(*arguments)
+        self.setDataTypes(compat.TERRAINS)
+
+    def clone(self) -> TerrainInput:
+        """Return a copy."""
+        return TerrainInput(self)
+
+    def checkValueIsAcceptable(
+        self, value: object, context: QgsProcessingContext | None = None
+    ) -> bool:
+        """Return whether `value` is a file, or QGIS accepts it."""
+        is_file = isinstance(value, (str, Path)) and _file(str(value)) is not None
+        return is_file or super().checkValueIsAcceptable(value, context)
+
+
+def terrain_of(
+    algorithm: QgsProcessingAlgorithm,
+    parameters: dict[str, object],
+    name: str,
+    context: QgsProcessingContext,
+) -> tuple[str, str]:
+    """Return the file of a raster or of points in a `TerrainInput`, and its name."""
+    value = parameters.get(name)
+    text = str(value) if isinstance(value, (str, Path)) else ""
+    text = text or algorithm.parameterAsString(parameters, name, context)
+    layer = value if isinstance(value, QgsMapLayer) else None
+    layer = layer or QgsProcessingUtils.mapLayerFromString(text, context, False)
+    if isinstance(layer, QgsRasterLayer):
+        if layer.providerType() != "gdal":
+            raise Refusal(mark("{} is not a file. Export it as GeoTIFF first."), layer.name())
+        return layer.source(), layer.name()
+    source = _named(text, context) if layer is None else _of_layer(layer)
+    if isinstance(source, Remote):
+        raise Refusal(mark("{} is not on this computer. Choose a file."), names_of([source]))
+    return str(source), name_of(source)
 
 
 def _without_secrets(value: object, context: QgsProcessingContext) -> str:

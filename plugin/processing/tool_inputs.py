@@ -38,6 +38,7 @@ from .inputs import (
     CloudCrs,
     PointCloudInput,
     SurveyInput,
+    TerrainInput,
     add_clouds,
     add_survey,
     box_of,
@@ -47,6 +48,7 @@ from .inputs import (
     raster_of,
     source_of,
     survey_of,
+    terrain_of,
     words_of,
 )
 from .layer_files import file_for_command
@@ -124,6 +126,7 @@ def add_input(algorithm: BareEarthAlgorithm, declared: Input) -> None:
         "clouds": lambda: SurveyInput(name, label),
         "address": lambda: PointCloudInput(name, label),
         "raster": lambda: QgsProcessingParameterRasterLayer(name, label, None, declared.optional),
+        "terrain": lambda: TerrainInput(name, label),
         "crs": lambda: QgsProcessingParameterCrs(name, label, None, True),
         "extent": lambda: QgsProcessingParameterExtent(name, label, None, True),
         "words": lambda: QgsProcessingParameterString(name, label, None, False, True),
@@ -305,6 +308,12 @@ def _raster(request: Request, declared: Input) -> Given:
     return Given(source, {}, (source,), (Path(source),), layer.name())
 
 
+def _terrain(request: Request, declared: Input) -> Given:
+    algorithm, parameters, context, _ = request
+    source, name = terrain_of(algorithm, parameters, declared.field_name, context)
+    return Given(source, {}, (source,), (Path(source),), name)
+
+
 def _crs(request: Request, declared: Input) -> Given:
     return Given(request.algorithm.stated, {"crs": request.algorithm.stated})
 
@@ -355,6 +364,7 @@ def _polygons(request: Request, declared: Input) -> Given:
 
 _READERS: dict[str, Callable[[Request, Input], Given]] = {
     "cloud": _cloud, "clouds": _cloud, "address": _address, "raster": _raster, "crs": _crs,
+    "terrain": _terrain,
     "extent": _extent, "words": _words, "checkpoints": _checkpoints, "polygons": _polygons,
     "files": _files, "survey": _survey, "area": _area, "target": _target,
     "corrections": _corrections, "constraints": _constraints,

@@ -45,7 +45,7 @@ from .tool_inputs import Given, Request, add_input, given, part_of
 
 # Inputs of these kinds, which name the run, are read first; `_LATE` ones when the work begins.
 _CLOUDS = ("cloud", "clouds", "files", "survey")
-_FILES = (*_CLOUDS, "raster", "address")
+_FILES = (*_CLOUDS, "raster", "terrain", "address")
 _LATE = ("checkpoints", "polygons")
 # Inputs of these kinds say which part of remote points is needed.
 _PARTS = ("area", "extent")

@@ -75,6 +75,10 @@ WATER = Look(mark("Water"), 9, vectors.water)
 BREAKLINES = Look(mark("Breaklines"), 10, vectors.breaklines)
 LOW_CONFIDENCE = Look(mark("Low confidence areas"), 8, vectors.low_confidence)
 PLACES = Look(mark("Places to review"), 10, vectors.places)
+_EVEN = looks.Ramp(looks.CHANGES, is_even=True)
+CHANGE = _drawn(mark("Change of the ground"), looks.Look(_EVEN, 5, 1))
+LIMIT = _drawn(mark("Detection limit"), looks.Look(looks.Ramp(looks.ERRORS, low=0.0), 4, 1))
+CHANGED = Look(mark("Places of change"), 10, vectors.changes)
 # Beside those of `RASTERS`.
 _OTHERS = {
     "ERROR_MAP": _drawn(mark("Errors"), looks.Look(looks.Ramp(looks.ERRORS, 0.0, 1.0), 6, 1)),
@@ -87,6 +91,9 @@ _LOOKS: dict[str, Look | Callable[[Any], Look]] = {
     "breaklines": BREAKLINES,
     "places": PLACES,
     "low confidence": LOW_CONFIDENCE,
+    "change": CHANGE,
+    "detection limit": LIMIT,
+    "places of change": CHANGED,
     "contours": lambda found: contours(found),
     "residuals": lambda found: residuals(found.scale),
 }

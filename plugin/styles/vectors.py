@@ -127,6 +127,22 @@ def water(layer: QgsVectorLayer) -> None:
     layer.setRenderer(QgsRuleBasedRenderer(root))
 
 
+def changes(layer: QgsVectorLayer) -> None:
+    """Outline what rose in blue and what sank in red, thinner what is probably no earth."""
+    root = QgsRuleBasedRenderer.Rule(None)
+    rules = (
+        (tr("Risen"), "#21598f", '"MEAN" >= 0 AND "KIND" = \'earth\'', "0.6"),
+        (tr("Sunk"), "#9c2f2b", '"MEAN" < 0 AND "KIND" = \'earth\'', "0.6"),
+        (tr("Probably no earth"), "#5b5b5b", "ELSE", "0.3"),
+    )
+    for text, colour, rule, width in rules:
+        symbol = QgsFillSymbol.createSimple(
+            {"style": "no", "outline_color": colour, "outline_width": width}
+        )
+        root.appendChild(QgsRuleBasedRenderer.Rule(symbol, 0, 0, rule, text))
+    layer.setRenderer(QgsRuleBasedRenderer(root))
+
+
 def places(layer: QgsVectorLayer) -> None:
     """Draw places to review with their rank, coloured by their answer, of which the form asks."""
     root = QgsRuleBasedRenderer.Rule(None)

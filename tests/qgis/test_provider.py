@@ -144,6 +144,11 @@ PARAMETERS = {
         "INPUT", "DTM", "CAUSE", "POINTS", "EARLIER", "LEAST_ERROR", "LEAST_AREA", "MOST_PLACES",
         "CORRECTIONS", "CORRECTIONS_FIELD", "OUTPUT", "REPORT",
     ],
+    "bareearth:change": [
+        "OLD", "NEW", "OLD_ERROR", "NEW_ERROR", "LIKE", "ALIGNMENT", "MOVE", "FIND_GROUND",
+        "CELL_SIZE", "LEAST_AREA", "METHOD", "PRESET", "THREADS", "MEMORY", "OUTPUT", "LIMIT",
+        "PLACES", "REPORT",
+    ],
     "bareearth:fetch": [
         "ADDRESS", "EXTENT", "BOUNDARY", "RESOLUTION", "LIMIT", "SKIP_MISSING", "TO_UTM",
         "HEIGHT_UNIT", "FOLLOW", "OUTPUT",
@@ -263,6 +268,18 @@ OUTPUTS = {
         "STRIP_RMS",
         "MEETS_SPECIFICATION",
         "VERDICT",
+    ],
+    "bareearth:change": [
+        "OUTPUT",
+        "LIMIT",
+        "PLACES",
+        "REPORT",
+        "PLACE_COUNT",
+        "VOLUME_UP",
+        "VOLUME_UP_ERROR",
+        "VOLUME_DOWN",
+        "VOLUME_DOWN_ERROR",
+        "SHIFT",
     ],
     "bareearth:review": ["OUTPUT", "REPORT", "PLACE_COUNT", "EXPECTED_RMSE"],
     "bareearth:relief": [

@@ -1,0 +1,381 @@
+"""Finds where the ground changed between two surveys, and how sure that is."""
+
+from __future__ import annotations
+
+import tempfile
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Callable, Iterator, Sequence
+
+import numpy as np
+
+from ...core.files import temporary_folder
+from ...core.parameters import ParameterSet, parameter
+from ...core.progress import SILENT, Progress
+from ...core.words import counted
+from ...engine.memory import Resources
+from ...rasters.content import Source
+from ...rasters.geotiff import NODATA
+from ...rasters.sparse import Part
+from ...rasters.writing import RasterCells, write_geotiff
+from ...report.units import Units
+from ...survey.area import Polygon
+from ...survey.feature_files import Feature, Layer, feature_writer
+from ...survey.files import Inputs
+from ..contours import corners_of
+from ..declaration import CLOUD, RASTER, TERRAIN, FileTool, Input, Output
+from ..ground.method import TileMethod
+from ..rasters.parameters import TerrainModel
+from .judged import SAME, judged
+from .page import Found, change_html
+from .pair import Given, Pair, Strip, pair_of
+from .places import Place, Places, limits_of, places_of
+from .stable import Alignment, aligned, sample_of, scatter_of
+
+# Metres of which the summary tells in which share of the area such a change could be told.
+TOLD = (0.1, 0.3, 1.0)
+_FIELDS = {
+    "RANK": int, "KIND": str, "AREA": float, "VOLUME": float, "VOLUME_ERR": float, "MEAN": float,
+    "LARGEST": float, "LIMIT": float,
+}  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Comparison(ParameterSet):
+    """How two dates are compared."""
+
+    alignment: str = parameter(
+        "tilt",
+        label="Alignment",
+        choices={"tilt": "Shift and tilt", "shift": "Shift only", "none": "None"},
+        help="What is taken off the difference: how the new terrain lies above the old one on"
+        " stable land, which must be a third of the common area at least.",
+    )
+    move: bool = parameter(
+        False,
+        label="Take off the horizontal shift",
+        advanced=True,
+        help="The horizontal shift between both dates is told in any case. If it is taken off, the"
+        " new terrain is interpolated once more.",
+    )
+    find_ground: bool = parameter(
+        True,
+        label="Find the ground of point clouds",
+        help="Both point clouds are classified by the same method first. Otherwise their class 2 is"
+        " ground.",
+    )
+    cell_size: float = parameter(
+        1.0,
+        label="Cell size",
+        unit="m",
+        minimum=0.01,
+        maximum=1000.0,
+        help="Side of a cell, if both dates are point clouds and no raster gives the grid.",
+    )
+
+
+@dataclass(frozen=True)
+class ChangeSummary:
+    """The change between two surveys; lengths are metres."""
+
+    cell_count: int  # with a value in both
+    place_count: int  # of significant change
+    risen_area: float  # square metres
+    sunk_area: float
+    volume_up: float  # cubic metres
+    volume_up_error: float  # 95 %
+    volume_down: float
+    volume_down_error: float
+    left_out: int  # places that the points of both dates show in both
+    alignment: Alignment
+    nmad: float  # of the difference on stable land
+    limit: float  # the median of the detection limits
+    can_tell: dict[float, float]  # share of the area in which a change of so many metres is told
+    by_error: bool  # whether limits follow from expected errors
+
+    @property
+    def shift(self) -> float:
+        """The vertical shift that was taken off."""
+        return self.alignment.shift
+
+    def figures(self, units: Units) -> list[tuple[str, str]]:
+        """Return the figures of the page, with their titles."""
+        told = (f"{units.height(metres)} in {share:.0%}" for metres, share in self.can_tell.items())
+        up, down = self._volumes(units)
+        return [
+            ("Places of significant change", f"{self.place_count:,}"),
+            ("Up", up),
+            ("Down", down),
+            (f"Left out: {SAME}", f"{self.left_out:,}"),
+            ("Taken off", self.alignment.text),
+            ("NMAD of stable land", units.height(self.nmad)),
+            ("Detection limit of a cell, median", units.height(self.limit)),
+            ("A change can be told, share of the area", ", ".join(told)),
+        ]
+
+    def _volumes(self, units: Units) -> tuple[str, ...]:
+        """Return the volumes up and down with their errors and areas."""
+        area, volume = units.horizontal**2, units.horizontal**2 * units.vertical
+        return tuple(
+            f"{value / volume:,.0f} ± {error / volume:,.0f} {units.cubic} on"
+            f" {square / area:,.0f} {units.across}²"
+            for value, error, square in (
+                (self.volume_up, self.volume_up_error, self.risen_area),
+                (self.volume_down, self.volume_down_error, self.sunk_area),
+            )
+        )
+
+    @property
+    def text(self) -> str:
+        """The result in sentences."""
+        left = f" Left out: {counted(self.left_out, 'place')}, {SAME}." * (self.left_out > 0)
+        told = ", ".join(f"{metres:g} m in {share:.0%}" for metres, share in self.can_tell.items())
+        up, down = self._volumes(Units())
+        return (
+            f"{counted(self.place_count, 'place')} of significant change: {up} up, {down} down"
+            f" (errors 95 %).{left} Taken off: {self.alignment.text}. A change can be told: {told}"
+            " of the area."
+        )
+
+
+def change(
+    old: Source,
+    new: Source,
+    difference: Path | None = None,
+    limit: Path | None = None,
+    places: Path | None = None,
+    page: Path | None = None,
+    old_error: Source | None = None,
+    new_error: Source | None = None,
+    like: Source | None = None,
+    comparison: Comparison = Comparison(),
+    how: Places = Places(),
+    method: TileMethod = TileMethod(),
+    resources: Resources = Resources(),
+    progress: Progress = SILENT,
+    write: Callable[..., None] = write_geotiff,
+    no_data: float = NODATA,
+) -> ChangeSummary:
+    """Write how the ground changed from an old to a new survey: the difference, what of it can be
+    told from errors, the places, and a page.
+    """
+    dates, names = (Given(old, old_error), Given(new, new_error)), (str(old), str(new))
+    outputs = [path.parent for path in (difference, limit, places, page) if path is not None]
+    beside = next((folder for folder in outputs if folder.is_dir()), Path(tempfile.gettempdir()))
+    model = TerrainModel(dtm_cell_size=comparison.cell_size)
+    made_of = model, method if comparison.find_ground else None, resources
+    with temporary_folder(beside) as folder:
+        pair = pair_of(dates, like, folder, made_of, progress.part(0.0, 0.6))
+        found = _found(pair, names, comparison, how, progress.part(0.6, 0.8))
+        clouds = [Inputs(date.terrain) if date.is_cloud else None for date in dates]  # type: ignore
+        every = judged(found.pair, found.alignment, found.places, clouds, progress.part(0.8, 0.9))
+        kept = [place for place in every if place.kind != SAME]
+        found = found._replace(places=kept)
+        summary = _summary(found, len(every) - len(kept))
+        _write_rasters(found, (difference, limit), write, no_data, progress.part(0.9, 0.97))
+        if places is not None:
+            grid = found.pair.grid
+            layer = Layer("change", "Polygon", _FIELDS, grid.frame.wkt, grid.crs.epsg)
+            feature_writer(places)(places, features_of(found), layer, progress)
+        if page is not None:
+            frame = found.pair.grid.frame
+            facts = summary.figures(Units(frame.horizontal_unit, frame.vertical_unit))
+            html = change_html(names, found, facts, clouds)
+            page.write_text(html, encoding="utf-8")
+    progress(1.0)
+    return summary
+
+
+def _found(
+    pair: Pair, names: tuple[str, str], comparison: Comparison, how: Places, progress: Progress
+) -> Found:
+    """Align both terrains, and find the places that changed."""
+    sample = sample_of(pair, names, progress.part(0.0, 0.3))
+    alignment = aligned(sample, comparison.alignment, names)
+    if comparison.move and np.isfinite(alignment.east):
+        east, north = alignment.east, alignment.north
+        pair = pair.shifted(-east, -north)
+        sample = sample_of(pair, names, progress.part(0.3, 0.4))
+        alignment = replace(
+            aligned(sample, comparison.alignment, names), east=east, north=north, is_moved=True
+        )
+    scatter = scatter_of(pair, sample, alignment, progress.part(0.4, 0.6))
+    places = places_of(pair, alignment, scatter, how, progress.part(0.6, 1.0))
+    return Found(pair, sample, alignment, scatter, places)
+
+
+def _summary(found: Found, left_out: int) -> ChangeSummary:
+    """Return the figures of all places and of the whole area."""
+    sample, alignment = found.sample, found.alignment
+    limits = limits_of(found.scatter, alignment, sample.spread, sample.slope)
+    up, down = (
+        [place for place in found.places if sign * place.volume > 0] for sign in (1, -1)
+    )  # fmt: skip
+    volume_up, volume_up_error = _volume(up, alignment)
+    volume_down, volume_down_error = _volume(down, alignment)
+    risen, sunk = (round(sum(place.area for place in places), 1) for places in (up, down))
+    return ChangeSummary(
+        cell_count=sample.common,
+        place_count=len(found.places),
+        risen_area=risen,
+        sunk_area=sunk,
+        volume_up=volume_up,
+        volume_up_error=volume_up_error,
+        volume_down=volume_down,
+        volume_down_error=volume_down_error,
+        left_out=left_out,
+        alignment=alignment,
+        nmad=round(found.scatter.nmad, 4),
+        limit=round(float(np.nanmedian(limits)), 3),
+        can_tell={metres: round(float(np.mean(limits <= metres)), 4) for metres in TOLD},
+        by_error=found.scatter.by_error,
+    )
+
+
+def _volume(places: Sequence[Place], alignment: Alignment) -> tuple[float, float]:
+    """Return the volume of places, positive, and its error: that of the alignment is the same in
+    all of them, the others are independent.
+    """
+    aligned = alignment.limit * sum(place.area for place in places)
+    others = sum(place.volume_error**2 - (alignment.limit * place.area) ** 2 for place in places)
+    total = abs(sum(place.volume for place in places))
+    return round(total, 2), round(float(np.sqrt(aligned**2 + max(others, 0.0))), 2)
+
+
+def _write_rasters(
+    found: Found,
+    paths: tuple[Path | None, Path | None],
+    write: Callable[..., None],
+    no_data: float,
+    progress: Progress,
+) -> None:
+    """Write the difference and the detection limit."""
+    pair, alignment, unit = found.pair, found.alignment, found.pair.grid.frame.vertical_unit
+
+    def change_of(strip: Strip) -> np.ndarray:
+        return alignment.of_strip(pair, strip)
+
+    def limit_of(strip: Strip) -> np.ndarray:
+        slope = strip.steepness(pair.cell)
+        limits = limits_of(found.scatter, alignment, strip.spread, slope)
+        return np.where(np.isnan(strip.change), np.nan, limits)
+
+    def parts(of: Callable[[Strip], np.ndarray], part: Progress) -> Iterator[Part]:
+        for strip in pair.strips(part):
+            values = of(strip)[strip.own] / unit
+            cells = np.where(np.isnan(values), no_data, values).astype(np.float32)
+            yield Part(strip.row + strip.own.start, 0, cells)
+
+    shown = "Change of the ground, {unit}", "Detection limit (95 %), {unit}"
+    for path, of, shows, part in zip(paths, (change_of, limit_of), shown, progress.shares(1, 1)):
+        if path is not None:
+            cells = RasterCells(pair.grid.whole, "float32", parts(of, part))
+            write(path, cells, pair.grid, no_data, part, shows)
+
+
+def features_of(found: Found) -> Iterator[Feature]:
+    """Yield the places as polygons."""
+    grid = found.pair.grid
+    up, across = grid.frame.vertical_unit, grid.frame.horizontal_unit
+    area, volume = across**2, across**2 * up
+    for rank, place in enumerate(found.places, start=1):
+        rings: Polygon = tuple(corners_of(ring, grid) for ring in place.rings)
+        yield Feature(
+            (
+                rank, place.kind, round(place.area / area, 1), round(place.volume / volume, 2),
+                round(place.volume_error / volume, 2), round(place.mean / up, 3),
+                round(place.largest / up, 3), round(float(np.mean(place.limit)) / up, 3),
+            ),
+            rings,
+        )  # fmt: skip
+
+
+_DATE = "a terrain model (a raster of heights), or a point cloud (a file, a folder or a .vpc)."
+_ERROR = "The expected error of the {} terrain model, as `terrain()` makes it, if that is a raster."
+TOOL = FileTool(
+    work=change,
+    sets=(Comparison, Places, TileMethod, Resources),
+    inputs=(
+        Input("old", "terrain", help=f"The older survey: {_DATE}", label="Old survey"),
+        Input("new", "terrain", help=f"The newer survey: {_DATE}", label="New survey"),
+        Input(
+            "old_error",
+            "raster",
+            help=_ERROR.format("old"),
+            label="Expected error of the old terrain model",
+            optional=True,
+        ),
+        Input(
+            "new_error",
+            "raster",
+            help=_ERROR.format("new"),
+            label="Expected error of the new terrain model",
+            optional=True,
+        ),
+        Input(
+            "like",
+            "raster",
+            help="A raster whose grid the results get. Empty: that of the old terrain model, or of"
+            " the new one if only that is a raster.",
+            label="Raster with the grid to use",
+            optional=True,
+            advanced=True,
+        ),
+    ),
+    outputs=(
+        Output(
+            "difference",
+            "raster",
+            help="New minus old height in each cell, after the alignment.",
+            label="Change of the ground",
+            named="OUTPUT",
+            is_main=True,
+            look="change",
+        ),
+        Output(
+            "limit",
+            "raster",
+            help="The detection limit of each cell: 95 of 100 differences of unchanged cells are"
+            " smaller.",
+            label="Detection limit",
+            look="detection limit",
+        ),
+        Output(
+            "places",
+            "features",
+            help="The places of significant change as polygons: what each probably is, area,"
+            " volume with its error (95 %), mean and largest change, mean limit.",
+            label="Places of change",
+            look="places of change",
+        ),
+        Output(
+            "page",
+            "page",
+            help="A page with a map, what stable land tells, the places, and profiles.",
+            label="Page",
+            named="REPORT",
+        ),
+    ),
+    command="change",
+    identifier="change",
+    title="Change between two surveys",
+    section="Products",
+    about="Both dates are aligned on stable land first. A change counts where it exceeds the"
+    " detection limit of its cells, and as a whole what correlated errors let expect. The limit"
+    " follows from the expected errors of both terrain models, or for rasters without these from"
+    " stable land.\n"
+    "Volumes have an error (95 %) that takes errors as correlated over distance. What stands in the"
+    " points of both dates alike is no change, whatever the ground filter made of it.",
+    page="change",
+    words=(CLOUD, TERRAIN, RASTER, "change,difference,dod,volume,erosion,landslide,detection,m3c2"),
+    run_name="change",
+    shown=(),
+    numbers=(
+        ("PLACE_COUNT", "Places"),
+        ("VOLUME_UP", "Volume up, m3"),
+        ("VOLUME_UP_ERROR", "Error of the volume up, m3"),
+        ("VOLUME_DOWN", "Volume down, m3"),
+        ("VOLUME_DOWN_ERROR", "Error of the volume down, m3"),
+        ("SHIFT", "Vertical shift taken off, m"),
+    ),
+)  # fmt: skip

@@ -1,0 +1,235 @@
+"""The page about the change between two surveys."""
+
+from __future__ import annotations
+
+import math
+from typing import Iterator, NamedTuple, Sequence
+
+import numpy as np
+
+from ...rasters.looks import CHANGES
+from ...relief.hillshade import hillshade
+from ...report.page import (
+    DRAWN,
+    Html,
+    bars,
+    keys,
+    lines,
+    map_of,
+    page,
+    paragraph,
+    section,
+    table,
+)
+from ...report.pictures import Picture, ramped, reduced, rgb
+from ...report.profile_chart import Dots, Line, profile_chart
+from ...report.units import Units
+from ...survey.files import Inputs
+from ..contours import corners_of
+from ..review.profile import ProfilePoints, points_along
+from .pair import Pair
+from .places import Place
+from .stable import Alignment, Sample, Scatter
+
+_SHOWN = 10  # places in the table, of which the first have profiles
+_PROFILES = 5
+_LONGEST = 900  # cells of the map
+_BEYOND = 15.0  # metres of a profile beyond its place
+_BARS = 21
+# Colours: what sank and what rose, as the layers in QGIS, and what is not told.
+_LEVEL = "#f5f3ee"
+_RAMP = (CHANGES[0][1], CHANGES[1][1], _LEVEL, CHANGES[3][1], CHANGES[4][1])
+_OLD, _NEW, _BAND = "#8c6d46", "#1a4fd6", "#c9b79a"
+_POINTS = "#b9a58a", "#8fb3ef"
+
+
+class Found(NamedTuple):
+    """What was found out about two terrains."""
+
+    pair: Pair
+    sample: Sample
+    alignment: Alignment
+    scatter: Scatter
+    places: list[Place]
+
+
+def change_html(
+    names: Sequence[str],
+    found: Found,
+    facts: Sequence[tuple[str, str]],
+    clouds: Sequence[Inputs | None],
+) -> str:
+    """Return the page, given the names and the point clouds of both dates, and the figures."""
+    grid = found.pair.grid
+    units = Units(grid.frame.horizontal_unit, grid.frame.vertical_unit)
+    parts = [
+        lines(f"Old: {names[0]}", f"New: {names[1]}", kind="files"),
+        table(facts, is_named=True),
+        section("Where the ground changed", *_map(found, units)),
+        section("Places of change", _table(found, units)),
+        section("Profiles", *_profiles(found, clouds, units)),
+        section("Stable land", *_stable(found, units)),
+    ]
+    return page("Change between two surveys", parts, DRAWN)
+
+
+def _map(found: Found, units: Units) -> Iterator[Html]:
+    """Yield the map of the change over the relief, with the places outlined."""
+    pair = found.pair
+    step = max(math.ceil(max(pair.grid.whole) / _LONGEST), 1)
+    scale = _scale(found)
+    rows = []
+    for start in range(0, pair.grid.whole[0], 64 * step):
+        window = slice(start, start + 64 * step), slice(0, pair.grid.whole[1])
+        old, new, _ = pair.cells(window)
+        east, north = pair.places(
+            np.arange(start, start + len(old))[:, None], np.arange(old.shape[1])
+        )
+        change = new - old - found.alignment.at(east, north)
+        rows.append([reduced(values.astype(np.float64), step) for values in (new, change)])
+    new, change = (np.vstack(some) for some in zip(*rows))
+    shade = hillshade(new, pair.cell * step).astype(np.float64)[..., None]
+    colour = ramped(change, _RAMP, -scale, scale).astype(np.float64)
+    pixels = np.where(shade > 0, colour * (0.35 + 0.65 * shade / 255.0), 255.0)
+    for place in found.places:
+        mask = place.mask
+        edge = mask & ~_inner(mask)
+        row, column = np.nonzero(edge)
+        at = (row + place.window[0].start) // step, (column + place.window[1].start) // step
+        pixels[at] = rgb("#222222")
+    picture = Picture(np.rint(pixels).astype(np.uint8), pair.cell * step)
+    ends = f"{units.height(-scale)} or less", "unchanged", f"{units.height(scale)} or more"
+    yield map_of(
+        picture, "New minus old, north is up", keys((_RAMP[0], _LEVEL, _RAMP[-1]), ends), units
+    )
+    yield paragraph("Places of significant change have a dark outline. White: no value in a date.")
+
+
+def _inner(mask: np.ndarray) -> np.ndarray:
+    """Return the cells of a mask whose four neighbours belong to it."""
+    wide = np.pad(mask, 1)
+    return wide[:-2, 1:-1] & wide[2:, 1:-1] & wide[1:-1, :-2] & wide[1:-1, 2:]
+
+
+def _scale(found: Found) -> float:
+    """Return the change in metres from which colours are full."""
+    means = [abs(place.mean) for place in found.places]
+    return max(float(np.median(means)) * 1.5 if means else 0.0, 4.0 * found.scatter.nmad, 0.1)
+
+
+def _table(found: Found, units: Units) -> Html:
+    """Return the table of the first places."""
+    up, area, volume = units.vertical, units.horizontal**2, units.horizontal**2 * units.vertical
+    rows = [
+        (
+            rank, place.kind, f"{place.area / area:,.0f}",
+            f"{place.volume / volume:+,.1f} ± {place.volume_error / volume:,.1f}",
+            f"{place.mean / up:+.2f}", f"{place.largest / up:+.2f}",
+            f"{float(np.mean(place.limit)) / up:.2f}",
+        )
+        for rank, place in enumerate(found.places[:_SHOWN], start=1)
+    ]  # fmt: skip
+    high = units.up
+    head = (
+        "", "What it probably is", f"Area, {units.across}²", f"Volume (95 %), {units.cubic}",
+        f"Mean, {high}", f"Largest, {high}", f"Limit of a cell, {high}",
+    )  # fmt: skip
+    left = len(found.places) - len(rows)
+    more = paragraph(f"{left:,} smaller places are only in the layer.") if left else ""
+    return Html(table(rows, head, "rlrrrrr") + more)
+
+
+def _profiles(found: Found, clouds: Sequence[Inputs | None], units: Units) -> Iterator[Html]:
+    """Yield profiles through the first places, with the points of both dates."""
+    shown = found.places[:_PROFILES]
+    cuts = [_line_of(place) for place in shown]
+    ends = np.array([corners_of(line, found.pair.grid).ravel() for line in cuts]).reshape(-1, 4)
+    points = [
+        [None] * len(shown) if cloud is None else points_along(cloud, ends) for cloud in clouds
+    ]
+    for number, (line, *of_dates) in enumerate(zip(cuts, *points), start=1):
+        yield _profile(number, found, line, of_dates, units)
+    if shown:
+        names = "old terrain", "detection limit", "new terrain", "old points", "new points"
+        colours = (_OLD, _BAND, _NEW, *_POINTS)
+        count = 5 if any(cloud is not None for cloud in clouds) else 3
+        yield paragraph(keys(colours[:count], names[:count]))
+
+
+def _line_of(place: Place) -> np.ndarray:
+    """Return the ends of the profile of a place, row and column, from west to east through its
+    largest change, along its shorter side.
+    """
+    row, column = (int(of[np.argmax(np.abs(place.change))]) for of in (place.rows, place.columns))
+    high, wide = (part.stop - part.start for part in place.window)
+    more = _BEYOND / place.cell
+    if high < wide:
+        first, last = place.window[0].start - more, place.window[0].stop + more
+        return np.array([(first, column), (last, column)], dtype=np.float64)
+    first, last = place.window[1].start - more, place.window[1].stop + more
+    return np.array([(row, first), (row, last)], dtype=np.float64)
+
+
+def _profile(
+    number: int,
+    found: Found,
+    line: np.ndarray,
+    points: Sequence[ProfilePoints | None],
+    units: Units,
+) -> Html:
+    """Return the profile of both terrains along a row or a column."""
+    pair, whole = found.pair, found.pair.grid.whole
+    low, high = (np.clip(end, 0, np.array(whole) - 1).astype(int) for end in line)
+    window = tuple(slice(int(a), int(b) + 1) for a, b in zip(low, high))
+    old, new, spread = (values.ravel() for values in pair.cells((window[0], window[1])))
+    rows, columns = np.mgrid[window]
+    taken = found.alignment.at(*pair.places(rows.ravel(), columns.ravel()))
+    slope = np.abs(np.gradient(old, pair.cell)) if len(old) > 1 else np.zeros(len(old))
+    limit = np.hypot(found.scatter.limit(spread, slope), found.alignment.limit)
+    start = low - line[0]
+    along = (np.hypot(*start) + np.arange(len(old))) * pair.cell / units.horizontal
+    up = units.vertical
+    dots = []
+    for some, colour, off in zip(points, _POINTS, (0.0, float(np.mean(taken)))):
+        if some is not None:
+            near = some.heights < np.nanmax(np.fmax(old, new)) / up + 5.0 / up
+            dots.append(Dots(some.along[near], some.heights[near] - off / up, colour))
+    fine = np.linspace(along[0], along[-1], 4 * len(along))
+    heights = np.interp(fine, along, (new - taken) / up)
+    known = np.isfinite(heights)
+    dots.append(Dots(fine[known], heights[known], _NEW))
+    first = Line(along, old / up, (old - limit) / up, (old + limit) / up, (_OLD, _BAND))
+    known = [
+        Dots(d.along[np.isfinite(d.heights)], d.heights[np.isfinite(d.heights)], d.colour)
+        for d in dots
+    ]
+    names = ("west", "east") if line[0][0] == line[1][0] else ("north", "south")
+    chart = profile_chart(
+        f"Profile of place {number}, from {names[0]} to {names[1]}", first, dots,
+        (units.across, units.up), {"left": f"{number}: {names[0]}", "right": names[1]},
+    )  # fmt: skip
+    return Html(chart)
+
+
+def _stable(found: Found, units: Units) -> Iterator[Html]:
+    """Yield the histogram of the differences of cells that did not change, and what it means."""
+    sample, scatter = found.sample, found.scatter
+    change = sample.change - found.alignment.at(sample.east, sample.north)
+    most = max(4.0 * scatter.nmad, 0.05)
+    limits = scatter.limit(sample.spread, sample.slope)
+    counts, _ = np.histogram(change[np.abs(change) <= limits], _BARS, (-most, most))
+    ticks = [units.height(value) for value in np.linspace(-most, most, 5)]
+    yield bars("Differences of stable cells", counts.tolist(), [_LEVEL] * _BARS, ticks)
+    how = (
+        "The limits follow from the expected errors of both terrain models, and from how much"
+        " stable land differs for each size of them."
+        if scatter.by_error
+        else "There are no expected errors: the limits follow from how much stable land differs at"
+        " each slope, and say nothing about gaps and plants."
+    )
+    yield paragraph(
+        "Cells that differ by less than their limit, after the alignment.",
+        f"{found.alignment.stable:.0%} of the cells are stable.", how,
+        f"Errors are correlated up to about {units.length(round(scatter.reach, 1))}.",
+        found.alignment.moved,
+    )  # fmt: skip

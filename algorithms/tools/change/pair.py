@@ -1,0 +1,295 @@
+"""Two terrains of the same place on one grid, from point clouds or from rasters."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Iterator, NamedTuple
+
+import numpy as np
+
+from ...classes.ground_classes import GroundClasses
+from ...classes.selection import Selection
+from ...core.errors import BareEarthError
+from ...core.points import Box, box_in_words
+from ...core.progress import SILENT, Progress
+from ...crs.matching import described, is_other_datum, is_same_map
+from ...crs.system import Crs
+from ...engine.memory import Resources
+from ...engine.run import Run
+from ...engine.step import Step
+from ...grids.gradient import gradient, length
+from ...rasters.cell_grid import RasterTarget
+from ...rasters.content import NO_CELLS, MemoryRaster, Source
+from ...rasters.geotiff import Raster, read_raster
+from ...rasters.sampling import HeightRaster, HeightSampler
+from ...rasters.windows import RasterWindows, Window, Windows
+from ...survey.files import Inputs, is_cloud
+from ...survey.vpc import SUFFIX
+from ..canopy import is_same_grid
+from ..ground.method import TileMethod
+from ..ground.step import LabelGround
+from ..rasters.parameters import TerrainModel
+from ..rasters.tool import rasters_of
+
+# Cells of a strip, and rows beyond it that places near its border need.
+_CELLS = 4_000_000
+MARGIN = 12
+# Two rasters whose heights have this ratio have them in metres and in feet.
+_FEET = 0.3048
+_ALIKE = 0.01
+_LEAST_HEIGHT = 20.0  # metres: of lower land the ratio says nothing
+
+
+class Strip(NamedTuple):
+    """Rows of both terrains, with some more rows above and below; float32, metres."""
+
+    row: int  # the first of these rows in the raster
+    own: slice  # which of them belong to the strip
+    old: np.ndarray
+    new: np.ndarray
+    spread: np.ndarray  # what 95 of 100 differences do not exceed by both expected errors, or NaN
+
+    @property
+    def change(self) -> np.ndarray:
+        """New minus old, as the rasters have them."""
+        return self.new - self.old
+
+    def slopes(self, cell: float) -> tuple[np.ndarray, np.ndarray]:
+        """Return the slope of the old terrain towards east and north, rise over run."""
+        south, east = gradient(self.old, cell)
+        return east, -south
+
+    def steepness(self, cell: float) -> np.ndarray:
+        """Return the slope of the old terrain, rise over run."""
+        return length(*self.slopes(cell))
+
+
+class Pair(NamedTuple):
+    """Two terrains on one grid; windows in metres, NaN for no value."""
+
+    grid: Raster  # whose cells all of them have
+    old: Windows
+    new: Windows
+    errors: tuple[Windows, Windows] | None  # the expected errors of both
+
+    @property
+    def cell(self) -> float:
+        """The side of a cell in metres."""
+        return self.grid.cell_metres[0]
+
+    def strips(self, progress: Progress) -> Iterator[Strip]:
+        """Yield all rows, strip by strip."""
+        rows, columns = self.grid.whole
+        step = max(_CELLS // columns, 4 * MARGIN)
+        for start in range(0, rows, step):
+            end, first = min(start + step, rows), max(start - MARGIN, 0)
+            window = slice(first, min(end + MARGIN, rows)), slice(0, columns)
+            yield Strip(first, slice(start - first, end - first), *self.cells(window))
+            progress(end / rows)
+
+    def cells(self, window: Window) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Return old and new terrain and the spread of a window."""
+        old, new = self.old[window], self.new[window]
+        spread = np.full(old.shape, np.nan, dtype=np.float32)
+        if self.errors is not None:
+            spread = np.hypot(self.errors[0][window], self.errors[1][window])
+        return old, new, spread
+
+    def places(self, rows: np.ndarray, columns: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return where cells lie, in metres east and north of the middle of the grid."""
+        middle = [(count - 1) / 2.0 for count in self.grid.whole]
+        return (columns - middle[1]) * self.cell, (middle[0] - rows) * self.cell
+
+    def shifted(self, east: float, north: float) -> Pair:
+        """Return the pair with the new terrain moved by metres."""
+        unit = self.grid.frame.horizontal_unit
+        move = east / unit, north / unit
+        errors = self.errors and (self.errors[0], _moved(self.errors[1], self.grid, move))
+        return self._replace(new=_moved(self.new, self.grid, move), errors=errors)
+
+
+class Given(NamedTuple):
+    """What the user gives of one date: a terrain model, or points; and its expected error."""
+
+    terrain: Source
+    error: Source | None = None
+
+    @property
+    def is_cloud(self) -> bool:
+        """Whether the terrain has to be made of points."""
+        if isinstance(self.terrain, MemoryRaster):
+            return False
+        path = Path(self.terrain)
+        return path.is_dir() or is_cloud(path) or path.suffix.lower() in (SUFFIX, ".txt")
+
+
+class _Sampled:
+    """Heights of a raster at the cells of another grid, in metres, moved by units of the CRS."""
+
+    def __init__(
+        self, source: Source, grid: Raster, factor: float, move: tuple[float, float] = (0.0, 0.0)
+    ) -> None:
+        self.shape, self._grid, self._factor = grid.whole, grid, factor
+        self.source, self._move = source, move
+        self._heights = HeightSampler(HeightRaster.of(source))
+
+    def moved(self, move: tuple[float, float]) -> _Sampled:
+        """Return the same heights, moved on."""
+        east, north = self._move[0] + move[0], self._move[1] + move[1]
+        return _Sampled(self.source, self._grid, self._factor, (east, north))
+
+    def __getitem__(self, window: Window) -> np.ndarray:
+        """Return the cells of a window, those that there are."""
+        rows, columns = (
+            np.arange(max(part.start, 0), min(part.stop, count))
+            for part, count in zip(window, self.shape)
+        )
+        column, row = np.meshgrid(columns + 0.5, rows + 0.5)
+        x, a, b, y, c, d = self._grid.geotransform
+        east, north = self._move
+        places = x + a * column + b * row - east, y + c * column + d * row - north
+        heights = self._heights.heights(*map(np.ravel, places)).reshape(column.shape)
+        return (heights * self._factor).astype(np.float32)
+
+
+def _moved(windows: Windows, grid: Raster, move: tuple[float, float]) -> Windows:
+    if isinstance(windows, _Sampled):
+        return windows.moved(move)
+    of = windows.raster  # type: ignore[attr-defined]
+    return _Sampled(of.source, grid, of.frame.vertical_unit, move)
+
+
+def pair_of(
+    dates: tuple[Given, Given],
+    like: Source | None,
+    folder: Path,
+    how: tuple[TerrainModel, TileMethod | None, Resources],
+    progress: Progress,
+) -> Pair:
+    """Return both terrains on one grid: that of `like`, of a raster that is given, or of both
+    clouds, whose rasters are made in a folder; refuse what cannot be compared.
+    """
+    clouds = [Inputs(date.terrain) if date.is_cloud else None for date in dates]  # type: ignore
+    target = RasterTarget(like=like) if like is not None else None
+    rasters = [date.terrain for date in dates if not date.is_cloud]
+    if target is None and rasters:
+        target = RasterTarget(like=rasters[0])
+    _refuse_other_clouds(clouds, dates)
+    if target is None:
+        boxes = [cloud.open().box for cloud in clouds if cloud is not None]
+        target = RasterTarget(extent=_common(*boxes))
+    made = [
+        date if cloud is None else _made(cloud, target, folder / name, how, part)
+        for date, cloud, name, part in zip(dates, clouds, ("old", "new"), progress.shares(1, 1))
+    ]
+    return _on_one_grid((made[0], made[1]), like, [str(date.terrain) for date in dates], progress)
+
+
+def _refuse_other_clouds(clouds: list[Inputs | None], dates: tuple[Given, Given]) -> None:
+    """Refuse dates that cannot be compared, before the long work begins."""
+    systems = [
+        read_raster(date.terrain, window=NO_CELLS).crs if cloud is None else cloud.open().crs
+        for date, cloud in zip(dates, clouds)
+    ]
+    _refuse_other_crs((systems[0], systems[1]), [str(date.terrain) for date in dates])
+
+
+def _common(one: Box, other: Box) -> Box:
+    """Return the common rectangle of two surveys."""
+    west, south, east, north = (
+        pick(*ends) for pick, ends in zip((max, max, min, min), zip(one, other))
+    )
+    if west >= east or south >= north:
+        raise BareEarthError(
+            f"The two surveys have no common area: the old one covers {box_in_words(one)}, the new"
+            f" one {box_in_words(other)}. Give two surveys of the same place."
+        )
+    return west, south, east, north
+
+
+def _made(
+    cloud: Inputs,
+    target: RasterTarget,
+    folder: Path,
+    how: tuple[TerrainModel, TileMethod | None, Resources],
+    progress: Progress,
+) -> Given:
+    """Make the terrain model of points, and its expected error."""
+    model, method, resources = how
+    folder.mkdir()
+    outputs = {"dtm": folder / "dtm.tif", "expected_error": folder / "error.tif"}
+    ground, steps = GroundClasses(), list[Step]()
+    if method is not None:
+        steps, ground = [LabelGround(method.parameters)], GroundClasses.of_selection(Selection())
+    steps.append(rasters_of([model], {"raster_target": target}, outputs, ground))
+    written = folder / ("points" if cloud.is_survey else "points.las") if method else None
+    Run(tuple(steps), resources=resources).work(cloud, written, progress)
+    return Given(str(outputs["dtm"]), str(outputs["expected_error"]))
+
+
+def _on_one_grid(
+    dates: tuple[Given, Given], like: Source | None, names: list[str], progress: Progress
+) -> Pair:
+    """Return the pair of two rasters with their expected errors."""
+    rasters = [
+        read_raster(date.terrain, 1, progress if str(date.terrain) == name else SILENT, NO_CELLS)
+        for date, name in zip(dates, names)
+    ]
+    _refuse_other_crs((rasters[0].crs, rasters[1].crs), names)
+    grid = rasters[0] if like is None else read_raster(like, window=NO_CELLS)
+    _refuse_other_crs((rasters[0].crs, grid.crs), [names[0], str(like)], heights=False)
+    width, height = grid.cell_metres
+    if not math.isclose(width, height, rel_tol=1e-3):
+        raise BareEarthError(f"{grid.source} has cells that are no squares. Resample it.")
+    old, new = (_windows(date.terrain, raster, grid) for date, raster in zip(dates, rasters))
+    errors: list[Windows] = []
+    for date, raster in zip(dates, rasters):
+        if date.error is not None:
+            of_error = read_raster(date.error, window=NO_CELLS)
+            _refuse_other_crs((raster.crs, of_error.crs), [names[0], str(date.error)], False)
+            errors.append(_windows(date.error, of_error, grid))
+    if len(errors) == 1:
+        progress.warning(
+            "Only one date has an expected error: limits follow from stable land alone. Give the"
+            " expected errors of both."
+        )
+        errors = []
+    return Pair(grid, old, new, (errors[0], errors[1]) if errors else None)
+
+
+def _windows(source: Source, raster: Raster, grid: Raster) -> Windows:
+    """Return the cells of a raster on a grid, in metres."""
+    unit = raster.frame.vertical_unit
+    if is_same_grid(raster, grid):
+        return RasterWindows(raster, unit)
+    return _Sampled(source, grid, unit)
+
+
+def _refuse_other_crs(systems: tuple[Crs, Crs], names: list[str], heights: bool = True) -> None:
+    """Refuse two dates in different CRS, or whose heights are not above the same datum."""
+    old, new = systems
+    if Crs() in systems:
+        return
+    if not is_same_map(old, new):
+        raise BareEarthError(
+            f"{names[1]} is in another CRS ({described(new)}) than {names[0]} ({described(old)})."
+            " Reproject one of them."
+        )
+    if heights and is_other_datum(old.datum, new.datum):
+        raise BareEarthError(
+            f"The heights of {names[0]} and {names[1]} are not above the same datum:"
+            f" {described(old)} and {described(new)}. Transform one of them first, such as with"
+            " gdalwarp and a geoid model."
+        )
+
+
+def refuse_other_units(old: np.ndarray, new: np.ndarray, names: tuple[str, str]) -> None:
+    """Refuse heights of which one are metres and the others feet, given those of many cells."""
+    low, high = sorted((abs(float(np.median(old))), abs(float(np.median(new)))))
+    if low > _LEAST_HEIGHT and abs(low / high / _FEET - 1.0) < _ALIKE:
+        raise BareEarthError(
+            f"The heights of {names[0]} (about {np.median(old):,.1f} m) and {names[1]} (about"
+            f" {np.median(new):,.1f} m) differ as metres and feet do. State the unit of both, such"
+            " as with 'gdal_edit.py -units ft RASTER'."
+        )
