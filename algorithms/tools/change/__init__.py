@@ -89,7 +89,7 @@ class ChangeSummary:
     left_out: int  # places that the points of both dates show in both
     alignment: Alignment
     nmad: float  # of the difference on stable land
-    limit: float  # the median of the detection limits
+    median_limit: float  # of the detection limits
     can_tell: dict[float, float]  # share of the area in which a change of so many metres is told
     by_error: bool  # whether limits follow from expected errors
 
@@ -109,7 +109,7 @@ class ChangeSummary:
             (f"Left out: {SAME}", f"{self.left_out:,}"),
             ("Taken off", self.alignment.text),
             ("NMAD of stable land", units.height(self.nmad)),
-            ("Detection limit of a cell, median", units.height(self.limit)),
+            ("Detection limit of a cell, median", units.height(self.median_limit)),
             ("A change can be told, share of the area", ", ".join(told)),
         ]
 
@@ -226,7 +226,7 @@ def _summary(found: Found, left_out: int) -> ChangeSummary:
         left_out=left_out,
         alignment=alignment,
         nmad=round(found.scatter.nmad, 4),
-        limit=round(float(np.nanmedian(limits)), 3),
+        median_limit=round(float(np.nanmedian(limits)), 3),
         can_tell={metres: round(float(np.mean(limits <= metres)), 4) for metres in TOLD},
         by_error=found.scatter.by_error,
     )
