@@ -35,6 +35,9 @@ from .unpacking import Unpacking
 from .values import BlockFiles, BlockValues, applied
 from .visits import Work
 
+# The time of a point in a block, in proportion to that of reading and writing it.
+_BLOCK_WEIGHT = 2.0
+
 
 class JobResult(NamedTuple):
     """The return value of a job and its messages, as kind and text, or why it failed."""
@@ -66,6 +69,11 @@ class Job:
         return [file for results in self.before for file in results.files.values()]
 
     @property
+    def weight(self) -> float:
+        """The cost of the job, as a number of points to read and write."""
+        raise NotImplementedError
+
+    @property
     def title(self) -> str:
         """The name of the job in reports."""
         return "blocks"
@@ -88,6 +96,11 @@ class BlockJob(Job):
     count: float  # of points in the blocks, estimated
     # Sources that already have the results of the earlier steps.
     finished: frozenset[Path] = frozenset()
+
+    @property
+    def weight(self) -> float:
+        """The cost of the job, as a number of points to read and write."""
+        return _BLOCK_WEIGHT * self.count
 
     def split(self) -> list[BlockJob]:
         """Return one job for each block."""
@@ -218,6 +231,11 @@ class TileJob(Job):
     tile: LasFile
     target: Path
     fingerprint: Fingerprint  # what the output is made from; written after the output
+
+    @property
+    def weight(self) -> float:
+        """The cost of the job, as a number of points to read and write."""
+        return float(self.tile.count)
 
     @property
     def title(self) -> str:

@@ -12,14 +12,12 @@ from collections import defaultdict
 from functools import cached_property, partial
 from operator import attrgetter
 from pathlib import Path
-from types import MappingProxyType
-from typing import Callable, Iterable, Iterator, Mapping, Sequence, TypeVar
+from typing import Callable, Iterable, Mapping, Sequence, TypeVar
 
 from ..core.errors import BareEarthError
 from ..core.progress import SILENT, Progress
-from ..las.cloud import PointCloud, survey_frame
+from ..las.cloud import survey_frame
 from ..las.lasfile import LasFile
-from ..las.reading import read_parts
 from ..survey.files import Survey
 from .block_grid import (
     BlockGrid,
@@ -40,10 +38,11 @@ from .manifest import (
     remove_record,
     stamp_of,
 )
+from .results import Results
 from .step import PointStep
 from .summary import TileSummary
 from .unpacking import Unpacking
-from .values import BlockFiles, BlockValues, numbered, with_values
+from .values import BlockFiles
 from .workers import Workers
 
 _Job = TypeVar("_Job", bound=BlockJob)
@@ -312,33 +311,3 @@ def block_jobs(
         )
         for group in grouped(grid, survey, list(files), workers.at_once, workers.share.bytes)
     ]
-
-
-class Results:
-    """Where to read the points of a survey with the results of earlier steps: from its files, or
-    from `inputs`, which some of the files were made from, and the results.
-    """
-
-    def __init__(
-        self,
-        survey: Survey,
-        inputs: Mapping[Path, LasFile] = MappingProxyType({}),
-        earlier: tuple[BlockFiles, ...] = (),
-    ) -> None:
-        self.survey, self._inputs, self.earlier = survey, inputs, earlier
-        self.read_from = {tile.path: inputs.get(tile.path, tile).path for tile in survey.tiles}
-        self.finished = frozenset(self.read_from) - inputs.keys()
-
-    def parts(
-        self, unpacking: Unpacking | None = None, progress: Progress = SILENT
-    ) -> Iterator[PointCloud]:
-        """Yield the points of all files, part by part."""
-        tiles = self.survey.tiles
-        for tile, part in zip(tiles, progress.shares(*[1.0] * len(tiles))):
-            las, values = self._inputs.get(tile.path, tile), []
-            if tile.path in self._inputs:
-                values = [BlockValues(files, las, are_all=False) for files in self.earlier]
-            if unpacking is not None:
-                las = unpacking.of(las, part.quiet())
-            parts = numbered(read_parts(las, part.quiet()))
-            yield from (points for _, points in with_values(parts, values))

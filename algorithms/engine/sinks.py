@@ -19,7 +19,8 @@ from .block_grid import BlockGrid, BlockIndex, least_memory, places_of, sources_
 from .job_queue import JobQueue
 from .jobs import SinkJob
 from .manifest import block_file, stamp_of
-from .plan import Results, block_jobs
+from .plan import block_jobs
+from .results import Results
 from .step import Sink
 from .unpacking import Unpacking
 from .values import BlockFiles
@@ -74,8 +75,8 @@ def run_sink(
         kept = {file for job in jobs for file in job.needs}
         queue = JobQueue(jobs, [], workers, progress.part(0.0, 0.8), kept)
         queue.work()
-        if queue.lost:
-            raise BareEarthError(f"The {step.title} cannot be made. {queue.lost[0]}")
+        for lost in queue.lost.values():
+            raise BareEarthError(f"The {step.title} cannot be made. {lost.failure}")
         of_blocks = [result for file in files.values() for result in step.load(file)]
         with contextlib.ExitStack() as opened:
             outputs = outputs or opened.enter_context(Outputs())

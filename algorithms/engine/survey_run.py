@@ -26,7 +26,8 @@ from ..survey.vpc import write_vpc
 from .execution import Execution
 from .job_queue import JobQueue
 from .manifest import folders_of, remove_record
-from .plan import Plan, Results
+from .plan import Plan
+from .results import Results
 from .sinks import run_sink
 from .step import PointStep, Sink, placed
 from .summary import SurveySummary
