@@ -29,6 +29,7 @@ from .disk_store import DiskStore
 from .file_points import FilePoints, TileResult, copies_all_else, memory_of_file
 from .manifest import Fingerprint, write_record
 from .memory import PeakMemory, Resources
+from .step import Sink
 from .store import Store
 from .summary import JobCost, TileSummary
 from .unpacking import Unpacking
@@ -116,7 +117,7 @@ class BlockJob(Job):
         """Estimate the largest number of bytes of memory that the job takes."""
         return min(memory_of(self.output.grid, self.count), resources.bytes)
 
-    def clouds(self, store: Store, progress: Progress) -> Iterator[PointCloud]:
+    def _clouds(self, store: Store, progress: Progress) -> Iterator[PointCloud]:
         """Yield the points of each file that the blocks need, with the results of earlier steps, in
         parts if the points will wait on disk.
         """
@@ -150,7 +151,7 @@ class BlockJob(Job):
             yield from (cloud for cloud in clouds if cloud.count)
 
     @contextlib.contextmanager
-    def work(self, share: Share) -> Iterator[Work]:
+    def _work(self, share: Share) -> Iterator[Work]:
         """Yield the step with an empty store, which is on disk if the points do not fit into
         memory.
         """
@@ -165,35 +166,35 @@ class BlockJob(Job):
         """Return whether a block, or the block that it is a part of, belongs to this job."""
         return self.output.grid.holding(block) in self.output.files
 
-
-@dataclass(frozen=True, eq=False)
-class PointJob(BlockJob):
-    """A job that computes a value for each point of some blocks, stored by block and file."""
-
     def run(self, share: Share, progress: Progress) -> None:
-        """Compute the values, and write one file for each block."""
+        """Let the step work, and write one file for each block."""
+        is_sink = isinstance(self.output.grid.step, Sink)
+        with self._work(share) as work:
+            (self._write_results if is_sink else self._write_values)(work, share, progress)
+
+    def _write_values(self, work: Work, share: Share, progress: Progress) -> None:
+        """Compute a value for each point of the blocks, and write them by block and file."""
         # The path of each part, and what `_numbers` returns for its points.
         parts: list[tuple[Path, np.ndarray]] = []
-        with self.work(share) as work:
-            for cloud in self.clouds(work.store, progress.part(0.0, 0.3)):
-                parts.append((cloud.path, self._numbers(cloud)))
-                work.add(cloud, wanted=parts[-1][1] > 0)
-            failure = work.failure(share.resources, progress.part(0.3, 0.95), self._is_wanted)
-            if failure is not None and not isinstance(failure, NoGround):
-                raise failure
-            progress(1.0)  # ends a job of a run that was cancelled, before it writes
-            for number, place in enumerate(self.output.files, start=1):
-                counts: dict[Path, int] = defaultdict(int)
-                for path, blocks in parts:
-                    counts[path] += int(np.count_nonzero(blocks == number))
-                kind = self.output.grid.step.kind
-                of_files = {path: np.zeros(count, dtype=kind) for path, count in counts.items()}
-                ends = dict.fromkeys(counts, 0)
-                for part, (path, blocks) in enumerate(() if failure else parts):
-                    values = work.store.values(part)[blocks == number]
-                    start, ends[path] = ends[path], ends[path] + len(values)
-                    of_files[path][start : ends[path]] = values
-                self.output.write(place, of_files, str(failure or ""))
+        for cloud in self._clouds(work.store, progress.part(0.0, 0.3)):
+            parts.append((cloud.path, self._numbers(cloud)))
+            work.add(cloud, wanted=parts[-1][1] > 0)
+        failure = work.failure(share.resources, progress.part(0.3, 0.95), self._is_wanted)
+        if failure is not None and not isinstance(failure, NoGround):
+            raise failure
+        progress(1.0)  # ends a job of a run that was cancelled, before it writes
+        for number, place in enumerate(self.output.files, start=1):
+            counts: dict[Path, int] = defaultdict(int)
+            for path, blocks in parts:
+                counts[path] += int(np.count_nonzero(blocks == number))
+            kind = self.output.grid.step.kind
+            of_files = {path: np.zeros(count, dtype=kind) for path, count in counts.items()}
+            ends = dict.fromkeys(counts, 0)
+            for part, (path, blocks) in enumerate(() if failure else parts):
+                values = work.store.values(part)[blocks == number]
+                start, ends[path] = ends[path], ends[path] + len(values)
+                of_files[path][start : ends[path]] = values
+            self.output.write(place, of_files, str(failure or ""))
 
     def _numbers(self, cloud: PointCloud) -> np.ndarray:
         """Return for each point the number of its block in this job, from 1; 0 for other blocks."""
@@ -202,26 +203,20 @@ class PointJob(BlockJob):
             numbers[codes == code(place)] = number
         return numbers
 
-
-@dataclass(frozen=True, eq=False)
-class SinkJob(BlockJob):
-    """A job that computes the results of a sink for some blocks."""
-
-    def run(self, share: Share, progress: Progress) -> None:
-        """Compute the results, and write one file for each block."""
+    def _write_results(self, work: Work, share: Share, progress: Progress) -> None:
+        """Compute and write the results of a sink."""
         grid = self.output.grid
-        with self.work(share) as work:
-            for cloud in self.clouds(work.store, progress.part(0.0, 0.5)):
-                work.add(cloud)
-            results: dict[BlockIndex, list[object]] = defaultdict(list)
-            done = work.done(share.resources, progress.part(0.5, 0.95), self._is_wanted)
-            for block, result in done or ():
-                results[grid.holding(block)].append(result)
-            progress(1.0)  # ends a job of a run that was cancelled, before it writes
-            # Results may still wait in the store.
-            for place, file in self.output.files.items():
-                with replacing(file) as temporary, temporary.open("wb") as stream:
-                    grid.step.save(results[place], stream)
+        for cloud in self._clouds(work.store, progress.part(0.0, 0.5)):
+            work.add(cloud)
+        results: dict[BlockIndex, list[object]] = defaultdict(list)
+        done = work.done(share.resources, progress.part(0.5, 0.95), self._is_wanted)
+        for block, result in done or ():
+            results[grid.holding(block)].append(result)
+        progress(1.0)  # ends a job of a run that was cancelled, before it writes
+        # Results may still wait in the store.
+        for place, file in self.output.files.items():
+            with replacing(file) as temporary, temporary.open("wb") as stream:
+                grid.step.save(results[place], stream)
 
 
 @dataclass(frozen=True, eq=False)

@@ -12,7 +12,7 @@ from collections import defaultdict
 from functools import cached_property, partial
 from operator import attrgetter
 from pathlib import Path
-from typing import Callable, Iterable, Mapping, Sequence, TypeVar
+from typing import Callable, Iterable, Mapping, Sequence
 
 from ..core.errors import BareEarthError
 from ..core.progress import SILENT, Progress
@@ -28,7 +28,7 @@ from .block_grid import (
     points_in,
     sources_of,
 )
-from .jobs import BlockJob, PointJob, TileJob
+from .jobs import BlockJob, TileJob
 from .manifest import (
     Fingerprint,
     Stamp,
@@ -44,8 +44,6 @@ from .summary import TileSummary
 from .unpacking import Unpacking
 from .values import BlockFiles
 from .workers import Workers
-
-_Job = TypeVar("_Job", bound=BlockJob)
 
 
 class _PlannedBlock:
@@ -206,7 +204,7 @@ class Plan:
             of_step = {block.place: block for block in missing.values() if block.step == number}
 
             blocks += block_jobs(
-                PointJob, grid, survey, {place: block.file for place, block in of_step.items()},
+                grid, survey, {place: block.file for place, block in of_step.items()},
                 {place: block.sources for place, block in of_step.items()},
                 partial(self._files_before, of_step), workers, unpacking,
             )  # fmt: skip
@@ -289,7 +287,6 @@ class Plan:
 
 
 def block_jobs(
-    kind: type[_Job],
     grid: BlockGrid,
     survey: Survey,
     files: Mapping[BlockIndex, Path],
@@ -297,12 +294,12 @@ def block_jobs(
     before: Callable[[Sequence[BlockIndex]], tuple[BlockFiles, ...]],
     workers: Workers,
     unpacking: Unpacking | None,
-) -> list[_Job]:
+) -> list[BlockJob]:
     """Return jobs on groups of blocks, given for each block the file for its result and the files
     with its points; `before` returns the results of earlier steps that a group needs.
     """
     return [
-        kind(
+        BlockJob(
             output=BlockFiles(grid, {place: files[place] for place in group}),
             sources=tuple(sorted({path for place in group for path in sources[place]})),
             count=points_in(survey, grid.window(group)),

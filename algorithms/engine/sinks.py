@@ -17,7 +17,7 @@ from ..las.cloud import survey_frame
 from ..survey.files import Survey
 from .block_grid import BlockGrid, BlockIndex, least_memory, places_of, sources_of
 from .job_queue import JobQueue
-from .jobs import SinkJob
+from .jobs import BlockJob
 from .manifest import block_file, stamp_of
 from .plan import block_jobs
 from .results import Results
@@ -68,7 +68,7 @@ def run_sink(
         read = {place: [results.read_from[path] for path in sources[place]] for place in missing}
         jobs = [
             replace(job, finished=results.finished.intersection(job.sources))
-            for job in block_jobs(SinkJob, grid, survey, missing, read, before, workers, unpacking)
+            for job in block_jobs(grid, survey, missing, read, before, workers, unpacking)
         ]
         jobs = _reading_once(jobs)
         # The results of earlier steps stay as long as a cancelled run may be continued.
@@ -90,7 +90,7 @@ def run_sink(
                 remove(file)
 
 
-def _reading_once(jobs: list[SinkJob]) -> list[SinkJob]:
+def _reading_once(jobs: list[BlockJob]) -> list[BlockJob]:
     """Return the jobs, changed so that files that only one job reads are not unpacked."""
     uses = Counter(path for job in jobs for path in job.sources)
     once = frozenset(path for path, count in uses.items() if count == 1)

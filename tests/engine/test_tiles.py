@@ -36,7 +36,7 @@ from bare_earth.algorithms.engine import workers as workers_module
 from bare_earth.algorithms.engine.block_grid import BlockGrid, BlockIndex, grouped
 from bare_earth.algorithms.engine.blocks import Blocks
 from bare_earth.algorithms.engine.disk_store import DiskStore
-from bare_earth.algorithms.engine.jobs import PointJob
+from bare_earth.algorithms.engine.jobs import BlockJob
 from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.engine.options import TileOutput
 from bare_earth.algorithms.engine.workers import Local, Processes, Threads
@@ -549,7 +549,7 @@ class FailingInTheEast(LabelGround):
 @pytest.mark.parametrize("heights", [False, True])
 def test_labelling_that_fails_fails_the_tiles_of_that_block_only(six, out, tmp_path, heights):
     def failing(job):
-        if isinstance(job, PointJob) and isinstance(step := job.output.grid.step, LabelGround):
+        if isinstance(job, BlockJob) and isinstance(step := job.output.grid.step, LabelGround):
             own = {field.name: getattr(step, field.name) for field in dataclasses.fields(step)}
             grid = dataclasses.replace(job.output.grid, step=FailingInTheEast(**own))
             output = dataclasses.replace(job.output, grid=grid)

@@ -15,7 +15,8 @@ import bare_earth
 from bare_earth import BareEarthError, Cancelled
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.engine import blocks as blocks_module
-from bare_earth.algorithms.engine.jobs import SinkJob
+from bare_earth.algorithms.engine.jobs import BlockJob
+from bare_earth.algorithms.engine.step import Sink
 from bare_earth.algorithms.engine.workers import Threads
 from bare_earth.algorithms.tin.triangulation import Tin, hull_corners
 
@@ -185,7 +186,7 @@ def raster_jobs(monkeypatch):
     jobs, submit = SimpleNamespace(count=0, most=None), Threads.submit
 
     def counting(workers, job):
-        jobs.count += isinstance(job, SinkJob)
+        jobs.count += isinstance(job, BlockJob) and isinstance(job.output.grid.step, Sink)
         if jobs.count == jobs.most:
             raise Cancelled
         return submit(workers, job)
