@@ -33,7 +33,7 @@ def use_for(address: str, login: str) -> None:
 
 
 class QgisReader(WebReader):
-    """Reads in threads, none of which may be the main one, each with the manager of its own."""
+    """Reads in threads other than the main one, each with a manager of its own."""
 
     # Not by QgsBlockingNetworkRequest: it follows redirects by itself, also to files and, with the
     # password, to other hosts; a cancel can let it wait for ever.

@@ -87,7 +87,7 @@ def overlapping(cloud: PointCloud) -> np.ndarray:
 
 
 def used(cloud: PointCloud, overlap: str) -> np.ndarray:
-    """Return which points are used, bool (n,): those that are not withheld, and not in the overlap
+    """Return which points are used, bool (n,): not withheld, and not in the overlap
     of strips if `overlap` is "leave-out".
     """
     if overlap == "leave-out":

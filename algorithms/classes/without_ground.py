@@ -44,6 +44,6 @@ def tell_of_groundless(
 
 
 def refuse_groundless(names: Sequence[str], ground: str, advice: str) -> None:
-    """Refuse files none of which has ground."""
+    """Refuse files if none has ground."""
     one, many = f"{names[0]} has no", f"None of the {len(names):,} files has"
     raise BareEarthError(f"{one if len(names) == 1 else many} {ground}. {advice}")

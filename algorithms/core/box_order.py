@@ -9,7 +9,7 @@ from .errors import BareEarthError
 from .points import Box, box_in_words
 from .progress import Progress
 
-# An extent that is so many times as wide or high as that of the points may have another order.
+# An extent that is this many times as wide or high as that of the points may have another order.
 _TIMES = 3.0
 
 

@@ -119,7 +119,7 @@ def check_lengths(folder: Path, names: Iterable[str]) -> None:
 
 
 def check_distinct(outputs: Iterable[Path | None]) -> None:
-    """Refuse, before any work is done, outputs of one run of which two are the same file."""
+    """Refuse, before any work is done, outputs of one run if two are the same file."""
     wanted = [path for path in outputs if path is not None]
     for first, second in itertools.combinations(wanted, 2):
         if is_same_file(first, second):

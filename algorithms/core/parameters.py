@@ -208,12 +208,12 @@ class ParameterSet:
 
 
 class HasSets:
-    """Base of dataclasses with a default for each field, some of which are parameter sets."""
+    """Base of dataclasses with a default for each field; some fields are parameter sets."""
 
     @classmethod
     def of(cls: type[_HasSets], sets: Iterable[ParameterSet], **fields: Any) -> _HasSets:
         """Return an instance with other fields, and with parameter sets in any order: a set goes to
-        the field of its type, or to the field `parameters` if there is none.
+        the field of its type, or to the field `parameters` if no field has its type.
         """
         names = {type(default): name for name, default in vars(cls()).items()}
         fields.update((names.get(type(given), "parameters"), given) for given in sets)

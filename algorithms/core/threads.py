@@ -74,7 +74,7 @@ class SharedThreads:
             self._add(1)
 
     def take(self) -> bool:
-        """Take one of the free threads and return True, or return False if there is none."""
+        """Take one of the free threads and return True, or return False if all are in use."""
         with self._free.get_lock():
             if self.free <= 0:
                 return False

@@ -62,7 +62,7 @@ def _are_within(places: np.ndarray, limits: tuple[float, float]) -> bool:
 
 
 def library() -> Any:
-    """Return the class for the installed library, GDAL first, for QGIS; None if there is none."""
+    """Return the class for the installed library, GDAL first, for QGIS; None without a library."""
     for package, asking in (("osgeo", _Gdal), ("pyproj", _Pyproj)):
         if importlib.util.find_spec(package) is not None:
             return asking

@@ -18,7 +18,7 @@ class Crs:
     """A coordinate reference system."""
 
     wkt: str | None = None
-    name: str = ""  # empty if there is none
+    name: str = ""  # empty if unknown
     horizontal_unit: float = 1.0  # metres
     vertical_unit: float = 1.0  # metres
     is_geographic: bool = False  # in degrees, or geocentric, so that nothing can be measured

@@ -140,7 +140,7 @@ class Settings:
         named: Collection[str] = (),
     ) -> None:
         self.values = dict(values)  # of parameters that the user did not give, by name
-        self.named = frozenset(named)  # those that the user gave
+        self.named = frozenset(named)  # given by the user
         of_user = [
             values.parameters if isinstance(values, TileMethod) else values for values in sets
         ]

@@ -63,7 +63,7 @@ def _find_water(job: DeliveryJob, row: Row, progress: Progress) -> None:
 
 
 def _write_water(job: DeliveryJob, row: Row, progress: Progress) -> None:
-    """Write the water and the breaklines, those that were found and those of the user, with the
+    """Write the water and the breaklines, found ones and those of the user, with the
     heights that they have in the terrain model.
     """
     target, survey = job.known["raster_target"], open_survey(job.opened(progress)[0])

@@ -178,7 +178,7 @@ def _read(file: BinaryIO, kind: np.dtype, start: int, end: int) -> np.ndarray:
 
 
 class RowsOnDisk:
-    """An array in a file, shape (rows, ...), of which slices are read; a file given by its path is
+    """An array in a file, shape (rows, ...), that is read by slices; a file given by its path is
     opened for each slice, and an open file is read by one thread only.
     """
 

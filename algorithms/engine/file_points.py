@@ -43,7 +43,7 @@ _MOST_SEEN = 12_000_000
 _BYTES_A_POINT_ON_DISK = 3
 # Bytes that blocks may take at most when the points are on disk.
 _MOST_FOR_BLOCKS = GIGABYTE
-# Largest record length of which whole records are kept in memory. To read them again for
+# Largest record length at which whole records are kept in memory. To read them again for
 # writing would take as long as the filter.
 _LONGEST_KEPT = 48
 

@@ -39,7 +39,7 @@ class JobQueue:
         self._workers, self._progress, self._messages = workers, progress, JobMessages()
         jobs: list[AnyJob] = [*blocks, *tiles]
         self._jobs = _sorter(blocks, jobs)
-        # Jobs that can start: those that needed no other job, and the others, which go first.
+        # Jobs that can start: without and with results of others; the latter go first.
         self._first = collections.deque(self._jobs.get_ready())
         self._next = collections.deque[AnyJob]()
         # The job of `jobs` that a job is a part or a copy of, and how many of its parts are left.
@@ -118,7 +118,7 @@ class JobQueue:
                 self._queue(ready)
 
     def _queue(self, job: AnyJob) -> None:
-        """Queue a job that can start, or end that on a file of which a block failed."""
+        """Queue a job that can start, or end one that writes a file with a failed block."""
         failure = next((self.lost[file] for file in job.needs if file in self.lost), None)
         is_partial = failure is not None or not self._partial.isdisjoint(job.needs)
         if isinstance(job, BlockJob):

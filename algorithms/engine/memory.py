@@ -87,7 +87,7 @@ class Cost(NamedTuple):
 
 
 def _of_c(name: str) -> Callable[..., int] | None:
-    """Return a function of the C library of Linux; None where there is none."""
+    """Return a function of the C library of Linux; None on other systems."""
     if sys.platform != "linux":
         return None
     import ctypes
@@ -105,7 +105,7 @@ def share_one_heap() -> None:
 
 
 def give_back() -> None:
-    """Return freed memory to the system, of which glibc keeps some."""
+    """Return the freed memory that glibc keeps to the system."""
     trim = _of_c("malloc_trim")
     if trim is not None:
         trim(0)

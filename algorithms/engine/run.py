@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Run:
-    """Steps, each of which sees the points with the results of the steps before it."""
+    """Steps; each sees the points with the results of the steps before it."""
 
     steps: tuple[Step, ...]
     output: TileOutput = field(default_factory=TileOutput)  # of many files

@@ -48,7 +48,7 @@ class RunningJobs(Generic[_Job]):
                 yield job, outcome
 
     def _start(self) -> list[Future[JobResult]]:
-        """Start as many jobs as may run at once; return those that are running."""
+        """Start jobs, up to the number that may run at once; return the running ones."""
         while len(self._running) < (1 if self._suspects else self._workers.at_once):
             is_repeated = bool(self._suspects)
             job = self._suspects.popleft() if is_repeated else self._take()

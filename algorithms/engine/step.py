@@ -234,7 +234,7 @@ class Sink(Step):
 
 class PointResult:
     """What a step found for the points of a file; this class has the `numbers` of the summary,
-    which are all that a step needs that changes only classes.
+    which is enough for a step that changes only classes.
     """
 
     kept: np.ndarray | None = None  # bool, (n,): which points are written; None for all

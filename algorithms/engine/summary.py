@@ -38,7 +38,7 @@ class RunSummary:
         raise NotImplementedError
 
     def told(self, output: Path) -> str:
-        """Return the text with the output, or the input if there is none."""
+        """Return the text with the output, or with the input if nothing was written."""
         return f"{output}: {self.text}"
 
 

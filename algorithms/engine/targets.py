@@ -67,7 +67,7 @@ def _check_stems(survey: Survey) -> None:
 
 
 def targets_of(survey: Survey, folder: Path, format: str = "same") -> dict[Path, Path]:
-    """Return the output of each input; refuse those that would get the same name."""
+    """Return the output of each input; refuse outputs with the same name."""
     targets: dict[Path, Path] = {}
     inputs: dict[str, Path] = {}
     for path in _paths(survey):

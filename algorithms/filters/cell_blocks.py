@@ -32,7 +32,7 @@ class CellBlocks(NamedTuple):
         return HeightGrid(self.lowest(heights.values), self.size, self.first_block)
 
     def lowest(self, heights: np.ndarray) -> np.ndarray:
-        """Return the lowest height in each block; NaN where there is none."""
+        """Return the lowest height in each block; NaN in empty blocks."""
         lowest = self._reduced(np.minimum, np.where(np.isnan(heights), np.inf, heights), np.inf)
         lowest[np.isinf(lowest)] = np.nan
         return lowest

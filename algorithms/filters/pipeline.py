@@ -22,7 +22,7 @@ from ..core.threads import in_threads
 from .state import GridState, RuleTime, State
 
 # A warning tells of low outliers if they are more than this share of the lowest points, and these
-# are so many that a share means something.
+# are numerous enough for a share.
 _MOST_OUTLIERS = 0.02
 _LEAST_CELLS = 500
 
@@ -100,7 +100,7 @@ class Pipeline:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Names of all rules, also of those that are fields of others."""
+        """Names of all rules, including fields of others."""
         return tuple(dict.fromkeys(part.name for rule in self.rules for part in rule.parts()))
 
     def without(self, *names: str) -> Pipeline:

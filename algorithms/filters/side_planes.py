@@ -27,7 +27,7 @@ _LEAF = 32  # points of a leaf of the tree: many, because there are few queries
 # Square metres that are added to the variances of x and y of neighbours, so that these always have
 # a plane.
 _STIFFNESS = 0.1
-_STENCIL = 3  # neighbours are first searched in the cells up to so many rows and columns away
+_STENCIL = 3  # neighbours are first searched in the cells up to this many rows and columns away
 # Most cells for each ground point. With more, neighbours are found only by the tree.
 _MOST_VOID = 8
 _LAST_BITS = 63  # bits that hold the number of one of 49 cells
@@ -135,7 +135,7 @@ class Sides:
 
 
 class _OfCells(NamedTuple):
-    """Points of which each cell has one at most: found by cell, four times as fast as by a tree."""
+    """Points, at most one a cell: found by cell, four times as fast as by a tree."""
 
     # Grids with a margin of empty cells: indices of points, and x and y, infinite in empty cells.
     number: np.ndarray

@@ -48,7 +48,7 @@ class GridState:
 
     @classmethod
     def of(cls, points: Points, spacing: float, size: float, shift: float = 0.0) -> GridState:
-        """Return the state of a grid of which only the lowest points are known."""
+        """Return the state of a grid with only its lowest points known."""
         cells = Cells.over(points, size, shift)
         lowest = cells.lowest_points(points)
         heights = np.full(cells.rows * cells.columns, np.nan)

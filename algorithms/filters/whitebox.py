@@ -48,7 +48,7 @@ class StandsAbove(PointRule):
     height: float  # height threshold in metres
     # Whether heights above a surface that follows the terrain are compared (white top-hat).
     top_hat: bool = True
-    # Least number of neighbours: the radius of a point with fewer grows until it has so many.
+    # Least number of neighbours: the radius of a point with fewer grows until it has this number.
     min_neighbours: int = 0
 
     def apply(self, state: State) -> None:
@@ -78,7 +78,7 @@ def stands_above(
     points: Points, rule: Neighbours, at_least: int = 0, progress: Progress = SILENT
 ) -> np.ndarray:
     """Return which points (n,) stand far above a neighbour; those with fewer than `at_least`
-    neighbours are compared with so many nearest points, and with others that are as near.
+    neighbours are compared with the nearest points, and with others that are as near.
     """
     neighbourhood, heights = _Neighbourhood(points, rule.radius, at_least), points.z
     if rule.top_hat:

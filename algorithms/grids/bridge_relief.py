@@ -48,7 +48,7 @@ class Relief(NamedTuple):
     def over(
         cls, points: Points, ground: np.ndarray, is_cleared: bool = False
     ) -> tuple[Relief, Cells]:
-        """Return the relief of points, some of which are ground, and their cells."""
+        """Return the relief of ground and other points, and their cells."""
         apart = spacing(points, step=_SPACING_STEP)
         cells = Cells.over(points, max(_CELL, _CELL_STEP * round(apart / 2.0 / _CELL_STEP)))
         lowest = cells.minimum(points.z, np.flatnonzero(ground))

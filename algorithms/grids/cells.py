@@ -24,8 +24,8 @@ _FEW = 16  # cells for each element from which on only the occupied cells are nu
 # Spacing: side in metres of the blocks in which points are counted. A block without points is a gap
 # in the survey.
 _BLOCK = 10.0
-# If the bounding box of points would hold them so many times at the least spacing, this is returned
-# without counting.
+# If the bounding box of points would hold them this many times at the least spacing, this is
+# returned without counting.
 _SURELY = 4.0
 _SPACING_STEP = 0.5  # step in metres to which the spacing is rounded by default
 
@@ -195,7 +195,7 @@ class Cells:
 
 def first_of_each(index: np.ndarray, size: int, *keys: np.ndarray) -> np.ndarray:
     """Return the index of the first element of each occupied cell by some keys, intp (m,), in the
-    order of the cells, of which there are `size`.
+    order of the `size` cells.
     """
     # The first element of a cell has the least first key. Between equal ones, the next key decides.
     if _FEW * len(index) < size:  # so that the time depends on the elements, not on the cells

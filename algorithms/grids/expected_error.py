@@ -131,7 +131,7 @@ class ExpectedAccuracy:
         self._squares = 0.0
 
     def add(self, error: np.ndarray) -> None:
-        """Add the expected errors of cells in metres, without those that are NaN."""
+        """Add the expected errors of cells in metres, without NaN."""
         known = error[np.isfinite(error)].astype(np.float64)
         self.count += len(known)
         self.large += int(np.count_nonzero(known > LARGE))

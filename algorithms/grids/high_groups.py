@@ -69,7 +69,7 @@ class HighGroups:
         return np.flatnonzero(is_topmost & few.ravel()[cell])
 
     def _highest(self, cells: Cells, cell: np.ndarray, z: np.ndarray) -> np.ndarray:
-        """Return the greatest height in each cell; minus infinity where there is none."""
+        """Return the greatest height in each cell; minus infinity in empty cells."""
         lowest = np.full(cells.rows * cells.columns, np.inf)
         lower_at(lowest, cell, -z)
         return -lowest.reshape(cells.shape)

@@ -47,7 +47,7 @@ def _numbers(row: np.ndarray, column: np.ndarray) -> np.ndarray:
 
 def along(line: np.ndarray, step: float, is_closed: bool = False) -> np.ndarray:
     """Return places along a line (n, 3), at most a step apart, including its corners, (m, 3); z is
-    interpolated, and NaN between corners of which one has no z.
+    interpolated, and NaN beside corners without z.
     """
     if is_closed and len(line) and not np.array_equal(line[0, :2], line[-1, :2]):
         line = np.concatenate((line, line[:1]))

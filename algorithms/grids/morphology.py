@@ -13,7 +13,7 @@ _MOST_STEPS = 65_000
 # Steps start from a multiple of this number of steps, so that the rounding of a height does not
 # depend on other heights.
 _LEVEL_STEPS = 12_800
-# Heights are clipped so many metres above and below all but this share of the cells: such cells
+# Heights are clipped this many metres above and below all but this share of the cells: such cells
 # stand out anyway.
 _BEYOND = 200.0
 _NEARLY_ALL = 0.001

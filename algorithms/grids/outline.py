@@ -48,7 +48,7 @@ class Span(NamedTuple):
         return Span(max(start, 0), min(end, rows), max(first, 0), min(last, columns))
 
 
-# Returns the cells of a span, of which those beyond the raster do not count; bool.
+# Returns the cells of a span, bool; cells beyond the raster do not count.
 Read = Callable[[Span], np.ndarray]
 
 
@@ -123,7 +123,7 @@ class Outline:
 
 
 class Discs:
-    """Morphology by discs on a raster, of which a span is read with the margin that this needs."""
+    """Morphology by discs on a raster, span by span, each read with the margin that this needs."""
 
     # Cells are dilated by a disc of radius `grow`, then eroded by one of radius `shrink`, both in
     # cells; 0 for no erosion. Wide discs are applied to groups of cells, which are fixed in the

@@ -9,7 +9,7 @@ import numpy as np
 from ..core.points import Points
 from .cells import Cells
 
-_SQUARE = 16  # side in cells of the squares of which parts are made
+_SQUARE = 16  # side in cells of the squares that parts are made of
 _COST_OF_A_PART = 4096  # what a part costs beside its cells, in cells
 _LEAST_SAVED = 0.1  # least share of the cost of a part that is saved if it is divided
 _SOLID = 0.9  # share of wanted squares from which on a part is not divided

@@ -44,7 +44,7 @@ class PieceGrid(NamedTuple):
         cls, windows: Sequence[CellWindow], size: float, apart: int = 1, multiple: int = 1
     ) -> PieceGrid:
         """Return the grid of pieces, which are moved to the north of each other by multiples of
-        some cells, and lie so many cells apart.
+        some cells, and lie this many cells apart.
         """
         first = windows[0]
         if len(windows) > 1:
@@ -117,7 +117,7 @@ class PieceGrid(NamedTuple):
         return CellWindow(south, west, north - south, east - west)
 
     def bands(self, rows: int) -> Iterator[tuple[int, int, tuple[slice, slice]]]:
-        """Yield parts of pieces, of up to so many rows of the whole, from north to south: the first
+        """Yield parts of pieces, of up to `rows` rows of the whole, from north to south: the first
         row from north and the first column in the whole, and the cells where they are counted.
         """
         whole = self.whole

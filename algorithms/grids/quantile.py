@@ -12,7 +12,7 @@ _COUNT = 1 << _HALF
 
 
 def quantile_of(parts: Callable[[], Iterable[np.ndarray]], share: float) -> float:
-    """Return a quantile of float32 values, without those that are NaN, of parts that are asked for
+    """Return a quantile of float32 values without NaN, of parts that are asked for
     twice, as `numpy.nanquantile` does of all of them; NaN without any.
     """
     # The bits of numbers are sorted as these: the upper half of the bits tells where the quantile
@@ -52,6 +52,6 @@ def _sortable(values: np.ndarray) -> np.ndarray:
 
 
 def _value(number: int) -> float:
-    """Return the value of which `_sortable` made a number."""
+    """Return the value that `_sortable` made a number of."""
     bits = number & 0x7FFFFFFF if number >> 31 else number ^ 0xFFFFFFFF
     return float(np.array(bits, dtype=np.uint32).view(np.float32))

@@ -140,7 +140,7 @@ def new_header(layout: LasFile, point_format: int, statistics: Statistics) -> by
 
 
 def new_vlrs(layout: LasFile, point_format: int, progress: Progress) -> list[Vlr]:
-    """Return the records before the points, of which the first is the info record, still empty."""
+    """Return the records before the points; the first is the info record, still empty."""
     vlrs = [vlr for vlr in layout.vlrs if _is_kept(vlr)]
     wkt = _wkt(layout, progress)
     if wkt is not None:

@@ -228,7 +228,7 @@ class LasFile:
 
     @property
     def laszip(self) -> bytes | None:
-        """The record with the compression of the points; None if there is none."""
+        """The record with the compression of the points; None if they are not compressed."""
         return next((vlr.data for vlr in self.vlrs if vlr.key == LASZIP), None)
 
     def vlr(self, *key: tuple[str, int]) -> Vlr | Evlr | None:

@@ -143,7 +143,7 @@ def of_water() -> Function:
     """Return the function `water`."""
     return Function(
         "water",
-        f"{file_tool('water').line}\nThe polygons and lines are those that water() writes for a"
+        f"{file_tool('water').line}\nThe polygons and lines are as water() writes them for a"
         " file with the same points.",
         POINTS,
         (GROUND, *ATTRIBUTES, *LAST),

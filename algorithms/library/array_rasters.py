@@ -46,7 +46,7 @@ def of_contours() -> Function:
     """Return the function `contours`."""
     return Function(
         "contours",
-        f"{file_tool('contours').help} The lines are those that contours() writes for a file with"
+        f"{file_tool('contours').help} The lines are as contours() writes them for a file with"
         " the same cells.",
         _RASTER,
         (arguments.PROGRESS,),
@@ -76,7 +76,7 @@ def of_relief() -> Function:
     """Return the function `relief`."""
     return Function(
         "relief",
-        f"{file_tool('relief').line}\nThe cells are those that relief() writes for a file with the"
+        f"{file_tool('relief').line}\nThe cells are as relief() writes them for a file with the"
         " same cells; cells without data are NaN, or 0 in pictures.",
         _RASTER,
         (arguments.PROGRESS,),
@@ -101,9 +101,9 @@ def of_removal() -> Function:
     """Return the function `remove_off_terrain_objects`."""
     return Function(
         "remove_off_terrain_objects",
-        f"{file_tool('remove-off-terrain-objects').line}\nThe cells are those that"
-        " remove_off_terrain_objects() writes for a file with the same cells; cells without data"
-        " are NaN.",
+        f"{file_tool('remove-off-terrain-objects').line}\nThe cells are as"
+        " remove_off_terrain_objects() writes them for a file with the same cells;"
+        " cells without data are NaN.",
         _RASTER,
         (arguments.PROGRESS,),
         (OffTerrain,),

@@ -210,7 +210,7 @@ def _of_terrain() -> Function:
     kind = Kind(f"Literal[{choices}] | Sequence[Literal[{choices}]]", "str or sequence of str")
     return Function(
         "terrain",
-        f"{map_tool('terrain').line}\nThe cells are those that terrain() writes for a file with the"
+        f"{map_tool('terrain').line}\nThe cells are as terrain() writes them for a file with the"
         " same points; cells without data are NaN, or 0 in pictures.",
         POINTS,
         (

@@ -19,7 +19,7 @@ class Features:
         "Point Z", "LineString", "LineString Z" or "Polygon".
     geometries : list
         Corners in units of the CRS: an array (1, 3) for each point, (n, 2) or (n, 3) for each
-        line, and for each polygon a list of closed rings (n, 2), of which the first is the border.
+        line, and for each polygon a list of closed rings (n, 2), the border first.
     values : dict of list
         One value for each geometry, by the names of the fields.
     crs : str or None

@@ -34,7 +34,7 @@ Cancelled
     If `progress` asked to stop; no output is incomplete.
 """
 
-# Does the work of a function: gets all values by their names, and instances of its sets, of which
+# Does the work of a function: gets all values by their names, and instances of its sets;
 # the first is that of the ground filter if the function has one.
 Run = Callable[[SimpleNamespace, Sequence[ParameterSet]], object]
 

@@ -108,7 +108,7 @@ def area_of(values: SimpleNamespace) -> Area | None:
     """Return the area that extent and boundary give, or None."""
     if values.extent is None and values.boundary is None:
         return None
-    # An extent that is none is refused before the boundary is read.
+    # An invalid extent is refused before the boundary is read.
     box = extent_of(values.extent)
     if box is not None:
         Area(box)

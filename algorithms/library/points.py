@@ -93,7 +93,7 @@ def cloud_of(values: SimpleNamespace, progress: Progress = SILENT) -> PointCloud
 def cloud_with_ground(
     values: SimpleNamespace, ground: GroundClasses, progress: Progress
 ) -> PointCloud:
-    """Return the points as `cloud_of`, of which those of the mask `ground`, if there is one, and no
+    """Return the points as `cloud_of`; the points of the mask `ground`, if it is given, and no
     others have the first of the ground classes.
     """
     cloud, classes = cloud_of(values, progress), [*ground.ground_classes]
@@ -111,7 +111,7 @@ def _coordinates(name: str, given: object) -> np.ndarray:
         return array
     if array.dtype.kind != "f":
         return array
-    # A number that is none stays in the sum.
+    # NaN stays in the sum.
     if not all(math.isfinite(float(part)) for part in _of_parts(array, np.sum)):
         count = int(np.count_nonzero(~np.isfinite(array)))
         if count:

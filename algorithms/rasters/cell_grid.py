@@ -116,7 +116,7 @@ def no_points(box: Box, extent: Box) -> BareEarthError:
 
 
 def _cells_of(source: Source, content: Content, unit: float) -> CellGrid:
-    """Return the cells of a raster file; refuse those that are not square with north up."""
+    """Return the cells of a raster file; refuse cells that are not square with north up."""
     (rows, columns), (west, width, tilt, north, lean, height) = content.shape, content.geotransform
     if height > 0.0 and width > 0.0 and not tilt and not lean:
         raise BareEarthError(

@@ -118,7 +118,7 @@ class Raster(NamedTuple):
     band: int = 1
 
     def rows(self, start: int, end: int, first: int = 0, last: int | None = None) -> np.ndarray:
-        """Read rows and columns of the file, those that it has, as `heights`."""
+        """Read rows and columns within the file as `heights`."""
         (rows, columns), start, first = self.whole, max(start, 0), max(first, 0)
         last = columns if last is None else min(last, columns)
         window = first, start, last - first, min(end, rows) - start

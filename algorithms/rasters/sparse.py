@@ -1,4 +1,4 @@
-"""Writes a cloud-optimised GeoTIFF of which most cells have no data, in the time and space of those
+"""Writes a cloud-optimised GeoTIFF that is mostly voids, in the time and space of those
 that have: tiles without data are left out, and the overviews are made of the others.
 
 References
@@ -146,7 +146,7 @@ class SparseFile:
         return ~np.isnan(values) if math.isnan(self._nodata) else values != self._nodata
 
     def _halved(self, tile: np.ndarray) -> np.ndarray:
-        """Return the means of squares of 2 x 2 cells, of those that have data."""
+        """Return the means of squares of 2 x 2 cells, without voids."""
         squares = tile.reshape(SIDE // 2, 2, SIDE // 2, 2, -1)
         has = self._has_data(squares)
         count = has.sum(axis=(1, 3))

@@ -26,7 +26,7 @@ class Stored(NamedTuple):
     held: np.ndarray | None = None  # bool (rows, columns) of tiles
 
     def step(self, cells: int) -> int:
-        """Return the rows of strips, of about so many cells if all tiles are stored."""
+        """Return the rows of strips, of about this many cells if all tiles are stored."""
         return _ROWS if self.held is not None else max(cells // max(self.shape[1], 1), 1)
 
     def strips(self, cells: int) -> Iterator[tuple[int, int]]:

@@ -1,4 +1,4 @@
-"""The cells of rasters that may be too large for the memory, of which windows are looked at."""
+"""The cells of rasters that may be too large for the memory, read window by window."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ Window = Tuple[slice, slice]
 
 
 class Windows(Protocol):
-    """Cells of which windows can be looked at: a `RasterWindows`, or an array."""
+    """Cells that can be read by windows: a `RasterWindows`, or an array."""
 
     @property
     def shape(self) -> Any:
         """Numbers of rows and columns."""
 
     def __getitem__(self, window: Any, /) -> Any:
-        """Return the cells of a window of rows and columns, those that there are."""
+        """Return the cells of a window of rows and columns within the raster."""
 
 
 class RasterWindows:
@@ -33,7 +33,7 @@ class RasterWindows:
         self._held = np.zeros((0, raster.whole[1]), dtype=np.float32)
 
     def __getitem__(self, window: Window) -> np.ndarray:
-        """Return the cells of a window, those that there are; float32 (rows, columns)."""
+        """Return the cells of a window within the raster; float32 (rows, columns)."""
         rows, columns = window
         start, end = max(rows.start, 0), min(rows.stop, self.shape[0])
         if start >= end:

@@ -91,7 +91,7 @@ class Piece:
         self._wide = wide[tuple(slice(cells.start, end) for cells, end in zip(self.place, ends))]
         own = self._shifted(0, 0)
         self.known = np.isfinite(own)  # bool (rows, columns), cells with a height
-        # float32 (rows, columns), heights; 0 where there is none.
+        # float32 (rows, columns), heights; 0 in voids.
         self.own = np.where(self.known, own, np.float32(0.0))
 
     def _shifted(self, row: int, column: int) -> np.ndarray:

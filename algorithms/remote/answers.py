@@ -66,7 +66,7 @@ class State(NamedTuple):
     """The version of a remote file, as far as the server states it."""
 
     size: int  # bytes
-    etag: str  # of the server for this version of the file; empty if there is none
+    etag: str  # of the server for this version of the file; empty if not stated
     modified: str
 
     @property
@@ -162,7 +162,7 @@ def unpacked(address: str, data: bytes, most: int) -> bytes:
 
 
 def parsed(text: bytes) -> Document:
-    """Return an object of JSON; ValueError if a text is none, or would need too much memory."""
+    """Return an object of JSON; ValueError if it is invalid or would need much memory."""
     size = sum(text.count(mark) * cost for mark, cost in _COSTS.items())
     if size > _MOST_MEMORY:
         raise ValueError("it would need too much memory")

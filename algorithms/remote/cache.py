@@ -131,7 +131,7 @@ def addresses_named(found: Mapping[Path, str]) -> Iterator[None]:
                 remove(path)
                 raise BareEarthError(
                     f"The copy of {address} in the cache was damaged, and is removed. Run it again."
-                    f" {tool('clear-cache')} removes all that is kept there."
+                    f" {tool('clear-cache')} empties the cache."
                 ) from error
             error.args = (str(error).replace(str(path), address),)
         raise

@@ -48,7 +48,7 @@ _ENDINGS = {"laszip": "laz", "binary": "bin"}
 Key = tuple[int, int, int, int]  # depth, x, y and z of a node
 _KEY = re.compile(r"(\d{1,2})-(\d{1,10})-(\d{1,10})-(\d{1,10})")
 _DEEPEST = 30
-# Most bytes of the description, of a file of the hierarchy and of a tile, of which six are in
+# Most bytes of the description, of a file of the hierarchy and of a tile; six are in
 # memory at a time.
 MOST_DESCRIPTION = 1 << 22
 _MOST_HIERARCHY = 1 << 24
@@ -182,7 +182,7 @@ class EptPart:
         _, entries = self._document(name, _MOST_HIERARCHY)
         try:
             if not all(map(_KEY.fullmatch, entries)):
-                raise ValueError("a key is none")
+                raise ValueError("a key is invalid")
             keys = np.array("-".join(entries).split("-") if entries else [], dtype=np.int64)
             counts = np.array([*entries.values()], dtype=np.int64)
         except (ValueError, TypeError, AttributeError, OverflowError) as error:

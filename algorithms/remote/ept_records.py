@@ -151,6 +151,6 @@ def wkt_of(srs: object) -> str | None:
     text = srs if isinstance(srs, str) else ""
     if str(about.get("authority", "")).upper() == "EPSG":
         text = f"EPSG:{about.get('horizontal')}"
-    with contextlib.suppress(BareEarthError):  # it is none, or needs a library
+    with contextlib.suppress(BareEarthError):  # it is invalid, or needs a library
         return stated_wkt(text)
     return None

@@ -1,4 +1,4 @@
-"""Files on servers, or on this computer, of which only some ranges are read."""
+"""Files on servers, or on this computer, that are read by ranges."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ class Plan(NamedTuple):
 
 
 class RangeFile(Protocol):
-    """A file of which ranges are read, by position as an open file."""
+    """A file that is read by ranges, by position as an open file."""
 
     name: str
     size: int

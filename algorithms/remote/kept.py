@@ -98,7 +98,7 @@ class Kept:
             return True
         self._transfers.progress.warning(
             f"The copy of {shown(self.address)} in the cache is damaged, and is fetched anew."
-            f" {tool('clear-cache')} removes all that is kept there."
+            f" {tool('clear-cache')} empties the cache."
         )
         remove(self.path)
         return False

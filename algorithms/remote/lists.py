@@ -31,12 +31,12 @@ from .ept import DESCRIPTION
 from .files import read_local
 from .transfers import Transfers
 
-# Endings and media types of point clouds of which parts can be read.
+# Endings and media types of point clouds that can be read in parts.
 _ENDINGS = (".copc.laz", DESCRIPTION)
 _MEDIA = ("application/vnd.laszip+copc",)
 _MOST_ITEMS = 5_000  # most items of a list
 _MOST_PAGES = 100  # most documents of a list
-# Most bytes of a list, and of a document with a single item, of which six are in memory at a time.
+# Most bytes of a list, and of a document with a single item; six are in memory at a time.
 _MOST_LIST = 1 << 25
 _MOST_ITEM = 1 << 22
 # Lists may round extents by so much, in units of the CRS or in degrees.
@@ -118,7 +118,7 @@ class _Reader:
     def __init__(self, address: str, transfers: Transfers) -> None:
         self._address, self._transfers = address, transfers
         self.strange: set[str] = set()  # servers that the user did not name
-        self.twice_count = 0  # items with several files, of which one is used
+        self.twice_count = 0  # items with several files; one is used
 
     def clouds(self) -> list[Cloud]:
         """Return the point clouds of all items, each once."""

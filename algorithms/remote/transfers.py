@@ -31,7 +31,7 @@ _LONGEST_PAUSE = 120.0
 # time for the received bytes at the least speed, in bytes a second.
 _LONGEST = 45.0
 _LEAST_SPEED = 10_000
-_SILENCE = 5.0  # seconds without a byte after which the user is told for which server we wait
+_SILENCE = 5.0  # seconds without a byte after which the log names the server that we wait for
 _BEAT = 0.1  # seconds after which the caller checks again whether the user has cancelled
 _LONGEST_END = 1.0  # seconds that the threads may take to end
 # Requests a second that hosts allow, by the ends of their names. IGN blocks users who make more.
@@ -115,7 +115,7 @@ class Transfers:
         self._web.refusal = refusal
         self._signatures = Signatures(self.read_whole, refusal is None)
         self._asked = ""  # the server of the last request
-        self._silent = {""}  # the silent servers of which the user was told
+        self._silent = {""}  # the silent servers that the log has named
         self._heard = (0, 0.0)  # bytes so far, and when they grew
         self._stopped = threading.Event()
         self._threads: list[threading.Thread] = []

@@ -1,4 +1,4 @@
-"""A file on a server of which no part can be read, such as plain LAZ: all of it is downloaded."""
+"""A file on a server that can't be read in parts, such as plain LAZ: all of it is downloaded."""
 
 from __future__ import annotations
 

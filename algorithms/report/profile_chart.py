@@ -12,7 +12,7 @@ _WIDTH = 800
 _HEIGHT = 240
 _LEFT = 64  # for the labels of heights
 _BELOW = 46
-_TICKS = 5  # about so many on each axis
+_TICKS = 5  # on each axis, about
 _ROOM = 0.06  # share of the height that is free above and below
 
 

@@ -24,7 +24,7 @@ FORMATS = {
     ".gpkg": "GPKG", ".geojson": "GeoJSON", ".shp": "ESRI Shapefile", ".fgb": "FlatGeobuf",
     ".dxf": "DXF",
 }  # fmt: skip
-OWN_FORMATS = ".geojson", ".dxf"  # those that need no library
+OWN_FORMATS = ".geojson", ".dxf"  # without a library
 # Further files of these formats: indices and journals.
 _BESIDE = {
     ".shp": (".dbf", ".shx", ".prj", ".cpg", ".qpj", ".qix", ".sbn", ".sbx"),

@@ -26,8 +26,8 @@ _WIDE = 2000.0
 _SPARSE = 4.0
 # An extent is that of a piece unless the squares with points cover less than this share of it.
 _FULL = 0.25
-# Stray points: at most so many, and at most this share of the points, so many times farther from
-# all others than they are apart.
+# Stray points: at most this number, and at most this share of the points, this many times farther
+# from all others than they are apart.
 _MOST_STRAY = 100
 _SHARE_STRAY = 1e-3
 _TIMES_APART = 10.0
@@ -107,7 +107,7 @@ def _groups(place: np.ndarray) -> np.ndarray:
 
 
 def _distance(boxes: np.ndarray, others: np.ndarray) -> float:
-    """Return the least distance between boxes and other ones; infinite if there is none."""
+    """Return the least distance between boxes and other ones; infinite without other ones."""
     least = math.inf
     for west, south, east, north in boxes.tolist():
         across = np.maximum(np.maximum(others[:, 0] - east, west - others[:, 2]), 0.0)

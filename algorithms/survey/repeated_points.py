@@ -1,4 +1,4 @@
-"""Finds points that a survey holds several times: those that tiles share, and duplicates."""
+"""Finds points that a survey holds several times: shared by tiles, or duplicates."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def count_repeated(keys: np.ndarray) -> int:
 
 
 def _parts(keys: np.ndarray) -> Iterator[np.ndarray | slice]:
-    """Yield the places of keys that begin with the same bits, as many as are sorted together."""
+    """Yield the places of keys that begin with the same bits, group by group."""
     bits = math.ceil(math.log2(max(len(keys) / _SORTED_TOGETHER, 1.0)))
     if not bits:
         yield slice(None)

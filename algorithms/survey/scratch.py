@@ -17,7 +17,7 @@ class ScratchArrays:
         self._folder = folder
 
     def has_room(self, size: int) -> bool:
-        """Return whether so many bytes are free on the disk, or not needed there."""
+        """Return whether the bytes are free on the disk, or not needed there."""
         return self._folder is None or shutil.disk_usage(self._folder).free >= size
 
     def array(self, name: str, shape: tuple[int, ...], kind: str) -> np.ndarray:

@@ -95,7 +95,7 @@ def name_among(names: Iterable[str], wanted: str) -> str | None:
 
 
 def value_of(attributes: Mapping[str, Any], wanted: str) -> Any:
-    """Return the value of an attribute whose name is in any case; None if there is none."""
+    """Return the value of an attribute by its name in any case; None if it is missing."""
     # Where features of a file write it differently, each of them has all names.
     found = attributes.get(wanted)
     if not _is_none(found):
@@ -234,7 +234,7 @@ def _line(corners: Any) -> np.ndarray:
 
 
 def _finite(corners: np.ndarray) -> np.ndarray:
-    """Return corners; refuse those that are not finite."""
+    """Return corners; refuse values that are not finite."""
     if not (np.abs(corners[:, :2]) <= _FARTHEST).all():
         raise ValueError("a corner is not a finite number, or not on this planet")
     return corners

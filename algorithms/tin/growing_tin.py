@@ -19,7 +19,7 @@ _ON_EDGE = 1e-10
 # Rounding error: a query beyond an edge still counts as on it if twice the area of their triangle,
 # in square metres, is less than this.
 _OUTSIDE = 1e-11
-# Most triangles that a query crosses in one call. It is faster to call again for those that go on.
+# Most triangles that a query crosses in one call. A call for the unfinished ones is faster.
 _STEPS = 6
 # Edges whose arrays stay in the processor's cache.
 _EDGES_A_PART = 1 << 15
@@ -38,7 +38,7 @@ class GrowingTin:
     # westernmost is used, so that the triangles depend only on the vertices.
     # Half-edge `3 * t + k` is the side of triangle `t` opposite to its corner `k`.
     # The first vertices, in metres near the origin, must be at different places, not all on one
-    # line, and include the corners of the convex hull of all that are added later.
+    # line, and include the corners of the convex hull of all points that are added later.
 
     def __init__(self, vertices: Points) -> None:
         tin = Tin(*vertices)

@@ -80,7 +80,7 @@ class LocalDelaunay:
         self._are_corners, self._max_edge = are_corners, max_edge
 
     def heights(self, queries: Queries) -> tuple[np.ndarray, np.ndarray]:
-        """Return heights at queries, NaN where there is none, and which of them are certain."""
+        """Return heights at queries, NaN outside of triangles, and which of them are certain."""
         heights = np.full(len(queries.x), np.nan)
         sure = np.zeros(len(queries.x), dtype=bool)
         left = np.arange(len(queries.x))

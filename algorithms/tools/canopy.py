@@ -27,7 +27,7 @@ from .rasters.rows import RASTERS
 _CELLS = 4_000_000
 # Difference of two geotransforms, in cells, up to which the grids are the same.
 _SAME = 1e-3
-# A surface that lies this far below the terrain, in metres, in most cells is none.
+# A surface that lies this far below the terrain, in metres, in most cells is not a surface model.
 _BELOW = 1.0
 
 

@@ -1,4 +1,4 @@
-"""Clips point clouds: the points in an area, with all that their files have of them."""
+"""Clips point clouds: the points in an area, with everything that their files hold about them."""
 
 from __future__ import annotations
 

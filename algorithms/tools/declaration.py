@@ -43,14 +43,14 @@ class Input:
     # "extent": a rectangle in the CRS of the points (a `Box`);
     # "words": several words (a tuple of text);
     # "checkpoints", "constraints", "corrections" and "target": groups of inputs, as
-    # `input_groups.py` lists them, of which some are "points", "lines", "attribute" or "text".
+    # `input_groups.py` lists them, such as "points", "lines", "attribute" and "text".
     kind: str
     # Converts polygons, or a raster and the progress, to the value that the tool gets.
     of: Callable[..., Any] = lambda value, *progress: value
     # A few sentences for the option, the argument and the field, to which these add file formats.
     # `in_words` replaces names of tools and options in it; {area} is the extent or the boundary.
     help: str = ""
-    label: str = ""  # of the field in the dialog; empty if there is none
+    label: str = ""  # of the field in the dialog; empty without a field
     named: str = ""  # name of the field and of the argument, if not `name` in upper case
     optional: bool = False  # a cloud or a raster that is not is an argument of the command
     advanced: bool = False
@@ -111,7 +111,7 @@ class Output:
     # or a new folder of such files), and "list" (the virtual point cloud of many files).
     kind: str
     help: str = ""  # as `Input.help`
-    label: str = ""  # of the field in the dialog; empty if there is none
+    label: str = ""  # of the field in the dialog; empty without a field
     named: str = ""  # name of the field and of the argument, if not `name` in upper case
     flag: str = ""  # of the command, if it is not made of `name`
     is_main: bool = False  # whether the command needs it, as an argument without a flag
@@ -195,7 +195,7 @@ class Tool:
     # The sets of the dialog if its order differs; derived classes if its defaults differ.
     dialog_sets: tuple[type[ParameterSet], ...] = ()
     looks_around: bool = True  # whether it measures, and points round an area matter
-    # Parameters that the dialog does not fold away; None for those that are not advanced.
+    # Parameters that the dialog does not fold away; None: all that are not advanced.
     shown: tuple[str, ...] | None = None
 
     @property
@@ -220,7 +220,7 @@ class Tool:
 
     @property
     def all_inputs(self) -> tuple[Input, ...]:
-        """The inputs in the order of the dialog, with those that all tools of its kind have."""
+        """The inputs in the order of the dialog, with the common ones of all tools of its kind."""
         return self.inputs
 
     @property
@@ -271,7 +271,7 @@ def _nothing(*arguments: object, **named: object) -> Any:
 class FileTool(Tool):
     """A tool that reads files and writes others, or only reports figures."""
 
-    # Its arguments are inputs and outputs by name, None for those that the user leaves out, the
+    # Its arguments are inputs and outputs by name, None where the user leaves one out, the
     # sets, recognised by the types of their defaults, and `progress`. It returns a summary: a
     # dataclass or an object with `as_dict`, with `text` (a sentence) or `lines()` (figures, which
     # are always printed).

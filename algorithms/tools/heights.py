@@ -68,7 +68,7 @@ class HeightSummary(TileSummary):
 
     @property
     def without_ground(self) -> WithoutGround:
-        """What is told of one of many files without ground."""
+        """The warning about one of many files without ground."""
         fate = "measured above the ground of other files"
         if math.isnan(self.minimum):
             fate = "written without a height"

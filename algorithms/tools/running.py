@@ -155,7 +155,7 @@ def _run_on_files(
     pending: Outputs | None = None,
 ) -> Any:
     """Check the outputs, run the tool, and return its summary; either all outputs are written,
-    together with those that are `pending`, or none.
+    together with the `pending` ones, or none.
     """
     arguments: dict[str, Any] = {declared.name: None for declared in tool.inputs}
     arguments.update({output.name: None for output in tool.outputs}, **inputs)

@@ -68,7 +68,7 @@ def delete(folder: Path) -> bool:
 
 
 def remove_if_uninstalled(plugin: Path, profile: Path) -> None:
-    """Remove all that the plugin put into a profile, if the folder of the plugin is gone."""
+    """Remove everything that the plugin put into a profile, if the folder of the plugin is gone."""
     # QGIS does not say whether it unloads a plugin to update or to uninstall it.
     if plugin.exists():
         return

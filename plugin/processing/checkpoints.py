@@ -37,7 +37,7 @@ _ROLES = {"Z_FIELD": "z", "COVER_FIELD": "cover", "NAME_FIELD": "name"}
 
 
 class CheckpointInput(QgsProcessingParameterFeatureSource):
-    """A layer of points, a table, or a text file of points, of which QGIS itself makes no layer."""
+    """A layer of points, a table, or a text file of points, which QGIS itself can't load."""
 
     def clone(self) -> CheckpointInput:
         """Return a copy; dialogs and models work with copies."""

@@ -189,7 +189,7 @@ class CompositionAlgorithm(ToolAlgorithm):
     def _show_layers(
         self, done: DeliverySummary, first: str, context: QgsProcessingContext
     ) -> None:
-        """Let QGIS load rasters, lines and polygons, of which `first` is visible."""
+        """Let QGIS load rasters, lines and polygons; only `first` is visible."""
         looks = {
             "water": layers.WATER, "breaklines": layers.BREAKLINES, "places": layers.PLACES,
             "low_confidence": layers.LOW_CONFIDENCE,

@@ -309,7 +309,7 @@ def ignored_filter(
     name: str,
     context: QgsProcessingContext,
 ) -> str:
-    """Return the filter of the input layer, which is ignored; empty if there is none."""
+    """Return the filter of the input layer, which is ignored; empty without a filter."""
     layer = parameters.get(name)
     if not isinstance(layer, QgsMapLayer):
         text = algorithm.parameterAsString(parameters, name, context)
@@ -434,7 +434,7 @@ def _line_of(line: QgsCurve) -> np.ndarray:
     return np.array(rows, dtype=float).reshape(-1, 3)
 
 
-# The class of a geometry of a kind, what returns its corners, and what a layer without any is told.
+# The class of a geometry of a kind, what returns its corners, and the message if it has none.
 _KINDS = {
     compat.POLYGONS: (
         QgsCurvePolygon, rings_of,

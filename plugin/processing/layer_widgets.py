@@ -51,7 +51,7 @@ class PointCloudWidget:
 
 
 class RasterWidget:
-    """Makes the widget of a raster of which a dialog for one run first shows the last one made."""
+    """Makes the widget of a raster; a dialog for one run first shows the last one made."""
 
     def __new__(
         cls, parameter: QgsProcessingParameterDefinition, dialog: QWidget, *_: object
@@ -103,7 +103,7 @@ class _LayerBox(QgsAbstractProcessingParameterWidgetWrapper):
         return self._box.value()
 
     def _suggestion(self) -> str:
-        """Return the layer or file that the last run made for the field; empty if there is none."""
+        """Return the layer or file that the last run made for the field, or an empty text."""
         project = self.widgetContext().project() or QgsProject.instance()
         path = made_last(self.parameterDefinition().metadata()[MADE_AS], project)
         layers = sources_of(project, [Path(path)] if path else [])
@@ -158,7 +158,7 @@ class _CloudBox(_LayerBox):
         self._suggest_extent()
 
     def _suggestion(self) -> str:
-        """Return the id of a layer or a file; empty if there is none."""
+        """Return the id of a layer or a file, or an empty text."""
         parameter = self.parameterDefinition()
         if MADE_AS in parameter.metadata():
             return super()._suggestion()

@@ -51,7 +51,7 @@ class Run(NamedTuple):
         return bool(has_field) and not self.is_review
 
     def path(self, name: str) -> str:
-        """Return the file of a result, or of a parameter; empty if there is none."""
+        """Return the file of a result, or of a parameter; empty if it was not made."""
         value = self.results.get(name) or self.parameters.get(name) or ""
         layer = QgsProject.instance().mapLayer(str(value))
         return str((layer and file_of(layer)) or value)

@@ -365,7 +365,7 @@ class FileToolAlgorithm(ToolAlgorithm):
         found: Any,
         context: QgsProcessingContext,
     ) -> dict[str, str]:
-        """Give looks to the files of an output; return those that are outputs of models."""
+        """Give looks to the files of an output; return the ones that are outputs of models."""
         if output.look:
             self.show(str(path), layers.look_of(output.look, found))
         if output.files is None:

@@ -90,7 +90,7 @@ def _with_own(layer: str, run: Run) -> str:
 
 
 def _read(path: str) -> Raster | None:
-    """Return a terrain model; None if there is none, or it can't be read."""
+    """Return a terrain model; None if it is missing or can't be read."""
     try:
         return read_raster(path) if path else None
     except BareEarthError:

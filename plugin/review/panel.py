@@ -101,7 +101,7 @@ class Panel(QWidget):
         layout.setSpacing(5)
 
     def show_session(self, session: Session) -> None:
-        """Show the current place of a session, or that there is none."""
+        """Show the current place of a session, or that no place is left."""
         place, count = session.place, len(session.places)
         for answer, button in self.buttons.items():
             button.setEnabled(place is not None)

@@ -42,7 +42,7 @@ class Profile(NamedTuple):
     length: float
     units: tuple[str, str]  # along the line, and up
     points: ProfilePoints | None
-    # The terrain along the line, and its expected error; NaN where there is none.
+    # The terrain along the line, and its expected error; NaN in voids.
     along: np.ndarray
     heights: np.ndarray
     error: np.ndarray
@@ -153,7 +153,7 @@ class ProfileView(QWidget):
         self._picture = None
 
     def paintEvent(self, event: object) -> None:
-        """Show the profile, of which many points are drawn only once, and the cursor."""
+        """Show the profile, whose many points are drawn only once, and the cursor."""
         profile = self._profile
         limits = profile.limits() if profile and profile.length > 0 else None
         if self._picture is None:

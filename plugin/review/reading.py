@@ -19,7 +19,7 @@ from ..i18n import tr
 from ..processing.runs import Sources
 from .session import Line, Place
 
-# The terrain along a line is sampled at so many places.
+# The terrain along a line is sampled at this number of places.
 SAMPLES = 300
 
 
@@ -75,7 +75,7 @@ class _TaskProgress(Progress):
 
 
 def sampler_of(path: str) -> HeightSampler | None:
-    """Return what reads a raster, of which no file stays open; None if it can't be read."""
+    """Return what reads a raster without keeping its file open; None if it can't be read."""
     if not path:
         return None
     try:
@@ -85,7 +85,7 @@ def sampler_of(path: str) -> HeightSampler | None:
 
 
 def values_along(sampler: HeightSampler | None, line: Line) -> np.ndarray:
-    """Return the values of a raster along a line, float64 with NaN where there is none."""
+    """Return the values of a raster along a line, float64 with NaN in voids."""
     share, (x1, y1, x2, y2) = np.linspace(0.0, 1.0, SAMPLES), line
     if sampler is None:
         return np.full(SAMPLES, np.nan)

@@ -35,7 +35,7 @@ class Place(NamedTuple):
     low: float
     high: float
     line: Line  # x and y of both ends of the profile
-    answer: str  # empty if there is none
+    answer: str  # empty if not answered
     outline: QgsGeometry
 
     @property
@@ -79,7 +79,7 @@ class Session:
     """The places of a layer in the order of their rank, one of them current."""
 
     def __init__(self, layer: QgsVectorLayer | None = None) -> None:
-        self.layer: Any = layer  # None if there is none: then there is no place
+        self.layer: Any = layer  # None if it is gone: then there is no place
         self.places: list[Place] = []
         self.number = 0  # of the current place, from 0
         self._given: list[tuple[int, str]] = []  # numbers of places, and their answers before

@@ -39,7 +39,7 @@ BELOW_TERRAIN = 4  # in runs whose result is the terrain
 _FIRST = 9
 
 
-# Coordinates in metres, of which nobody knows the place. QGIS transforms those of a project to
+# Coordinates in metres at an unknown place. QGIS transforms those of a project to
 # longitude and latitude, and shows an error if it cannot, as with a local CRS (LOCAL_CS).
 _LOCAL = (
     'PROJCS["Local coordinates in metres",GEOGCS["unknown",DATUM["unknown",'
@@ -203,8 +203,8 @@ def _name(
     subject: str,
     stage: Stage,
 ) -> set[str]:
-    """Name layers by their titles, but those that a model has named, and return these."""
-    # Boxes in which layers are chosen show no groups: names say of which input and run they are.
+    """Name layers by their titles, unless a model has named them, and return the renamed ones."""
+    # Boxes in which layers are chosen show no groups: names say which input and run they belong to.
     loaded = [path for path in titles if context.willLoadLayerOnCompletion(path)]
     details = {path: context.layerToLoadOnCompletionDetails(path) for path in loaded}
     named = {path for path in loaded if details[path].name not in ("", labels.get(path, ""))}

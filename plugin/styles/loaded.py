@@ -127,7 +127,7 @@ def show_fresh_points(layer: QgsMapLayer) -> None:
 
 
 def filter_of(layer: QgsMapLayer | None) -> str:
-    """Return the filter that the user gave to a layer; empty if there is none."""
+    """Return the filter that the user gave to a layer; empty without a filter."""
     # Point cloud layers have filters since QGIS 3.26.
     found = ""
     if layer is not None and hasattr(layer, "subsetString"):
@@ -147,7 +147,7 @@ def group_of(project: QgsProject, sources: Sequence[Source]) -> QgsLayerTreeGrou
 
 
 def edited(project: QgsProject | None, sources: Iterable[Source]) -> str:
-    """Return the name of a layer with edits that are not saved; empty if there is none."""
+    """Return the name of a layer with edits that are not saved, or an empty text."""
     for source in sources:
         layer = project.mapLayer(source.layer) if project else None
         if layer is not None and has_edits(layer):

@@ -40,7 +40,7 @@ def settings_of(
     parameters: Mapping[str, object],
     context: QgsProcessingContext,
 ) -> tuple[str, ...]:
-    """Return the inputs and parameters of a run in words, except those that are empty."""
+    """Return the inputs and parameters of a run in words, without empty ones."""
     found = []
     for field in algorithm.parameterDefinitions():
         value = parameters.get(field.name(), field.defaultValue())

@@ -36,7 +36,7 @@ _SAMPLE = 600  # most rows, and most columns, of it
 
 
 def shown_by(layer: QgsRasterLayer) -> str:
-    """Return the description of the band in the user's language; empty if there is none."""
+    """Return the description of the band in the user's language; empty if it has no description."""
     said = _description(layer.source())
     return ", ".join(tr(part) or part for part in said.split(", "))
 

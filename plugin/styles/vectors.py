@@ -144,7 +144,7 @@ def changes(layer: QgsVectorLayer) -> None:
 
 
 def places(layer: QgsVectorLayer) -> None:
-    """Draw places to review with their rank, coloured by their answer, of which the form asks."""
+    """Draw places to review with their rank, coloured by their answer, which the form asks for."""
     root = QgsRuleBasedRenderer.Rule(None)
     for answer, (text, colour) in ANSWERS.items():
         fill = QColor(colour)

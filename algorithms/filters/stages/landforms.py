@@ -195,7 +195,7 @@ class Ramps(Rule):
         return maybe
 
     def _is_ramp(self, regions: RaisedRegions, own: np.ndarray, joins: np.ndarray) -> bool:
-        """Return whether the cells of a region rise evenly from those that join the ground."""
+        """Return whether the cells of a region rise evenly from the cells that join the ground."""
         places, feet = (
             np.array(np.divmod(cells, regions.shape[1])) for cells in (regions.cells[own], joins)
         )

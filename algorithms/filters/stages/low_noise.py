@@ -33,8 +33,9 @@ _DEVIATION = 1.48
 class LowGroups(PointRule):
     """A small group of points far below the plane of the ground that surrounds it is low noise."""
 
-    # Real pits of this width are hardly ever so deep. Near those that are (gaps in a canopy, wells,
-    # ends of ditches), other lowest points are as low, or the lowest points round them are uneven.
+    # Real pits of this width are hardly ever so deep. Near the few that are (gaps in a canopy,
+    # wells, ends of ditches), other lowest points are as low, or the lowest points round them
+    # are uneven.
 
     stage: ClassVar = Stage.LOW_NOISE
     writes: ClassVar = ("points", "grids", "low_noise")

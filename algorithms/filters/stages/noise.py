@@ -22,7 +22,7 @@ _STEPS_A_METRE = 1 << 14  # to which rises are rounded
 _SQUARE = 3
 _SQUARE_PERCENTILE = 10
 # The middle of the noise in a cell is the mean of the points within this multiple of the noise. It
-# is computed twice, since these points change, and from at least so many points.
+# is computed twice, since these points change, and from at least this number of points.
 _NOISE_FACTOR = 2.5
 _MEANS = 2
 _MEAN_POINTS = 4
@@ -30,7 +30,7 @@ _MEAN_POINTS = 4
 _LOWEST_FACTOR = 0.8
 _POINTS_A_PART = 1 << 15
 _POINTS_A_SUM = 1 << 19
-# The name in `Points.found` of the box outside of which the cloud was thinned to the lowest points,
+# The name in `Points.found` of the box; outside, the cloud was thinned to the lowest points,
 # which are less noisy than all.
 UNTHINNED = "unthinned"
 

@@ -92,7 +92,7 @@ class Corroborated(Rule):
     def _witnesses(self, size: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Return the offsets of witnesses in rows and columns, and their largest differences."""
         reach = int(np.ceil(self.farthest / size))
-        # Of narrow cells only some are witnesses, so that there are as many as of wide cells.
+        # Of narrow cells only some are witnesses, so that their number is that of wide cells.
         stride = max(round(self.apart / size), 1)
         steps = np.arange(-(reach // stride), reach // stride + 1) * stride
         rows, columns = (axis.ravel() for axis in np.meshgrid(steps, steps, indexing="ij"))

@@ -84,7 +84,7 @@ def raised_regions(
     grid: GridState, raised: np.ndarray, steps: Steps, judges_gaps: bool
 ) -> RaisedRegions:
     """Return the regions of raised cells without steps between them, given the steps between all
-    neighbours of which at least one is raised.
+    neighbours with at least one raised cell.
     """
     # If gaps are judged, a border at a cell without a point is not known to be gentle.
     cell, neighbour, sign = steps

@@ -11,7 +11,7 @@ from ...grids.morphology import within_square
 
 # Least share of the border of a pit that rises.
 _PIT_SHARE = 0.9
-# Most rounds in which regions are searched, each without those that were found before.
+# Most rounds in which regions are searched, each without the ones found before.
 _ROUNDS = 3
 # Wider regions, in metres, may be table mountains.
 _WIDE = 25.0

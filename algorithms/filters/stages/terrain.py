@@ -222,7 +222,7 @@ class GentleRegions(GridRule):
     def _steps(
         self, grid: GridState, raised: np.ndarray, smooth: np.ndarray, axis: int, step: float
     ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Return pairs of neighbouring cells along an axis of which at least one is raised, and the
+        """Return pairs of neighbouring cells along an axis with at least one raised cell, and the
         sign of the step to the second: 1 up, -1 down, 0 for none.
         """
         filled, size = grid.filled, grid.cells.size

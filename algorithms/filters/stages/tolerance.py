@@ -118,7 +118,7 @@ class MeasuredNoise(Rule):
             above = of_noise if spacing <= DENSE_SPACING else max(above, of_noise)
         elif _NOISE_SPACING < spacing <= _SPARSE:
             noise = noise_of_squares(points, cells, surface, slopes)
-            # The surface goes through the lowest point of each cell, which holds about so many.
+            # The surface goes through the lowest point of each cell, which holds about this number.
             count = np.asarray(max(cells.size / spacing, 1.0) ** 2)
             least = (self.sparse_factor + float(below_middle(count))) * noise - self.usual
             above = max(above, least) if noise <= self.most_sparse else above
@@ -133,7 +133,7 @@ class WallFoot(Rule):
 
     more: float = 0.3  # metres that are added to the tolerance above the surface
     # A cell is tall if more than this share of its points lie more than `tall` metres above the
-    # highest ground. The foot are the cells beside tall ones, except those that are surrounded by
+    # highest ground. The foot are the cells beside tall ones, except cells that are surrounded by
     # cells with seeds.
     tall: float = 2.0
     share: float = 0.05
@@ -174,7 +174,7 @@ class ToleranceSurface(PointRule):
     sparse: tuple[float, float] = (0.5, 1.0)
     measured_noise: MeasuredNoise | None = MeasuredNoise()
     # At breaks, where the curvature over a cell exceeds this, in metres, the surface is too smooth:
-    # each metre of curvature beyond adds so many metres to both tolerances.
+    # each metre of curvature beyond adds this many metres to both tolerances.
     curvature: float = 0.25
     at_breaks: float = 1.5
     # Under trees low plants stand among the ground points. There the surface goes through the

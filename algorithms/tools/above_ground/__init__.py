@@ -45,7 +45,7 @@ class AboveGroundSummary(TileSummary):
 
     @property
     def without_ground(self) -> WithoutGround:
-        """What is told of one of many files without ground."""
+        """The warning about one of many files without ground."""
         fate = "classified above the ground of other files"
         if not self.changed_count:
             fate = UNCHANGED

@@ -60,7 +60,7 @@ _CLOSING = 1.5
 _CELL_SPACINGS = 1.2
 # Planes to which a point is compared.
 _COMPARED = 4
-# Nearest neighbours, of which two make a plane with a point that is tried.
+# Nearest neighbours: two of them make a plane with a point that is tried.
 _TRIED = 8
 # Least sine of the angle between two neighbours: in almost one direction they define no plane.
 _LEAST_SINE = 0.3
@@ -295,7 +295,7 @@ def _planes(
     on = (np.abs(z - east * x - north * y) <= tolerance) & near & (best > 0.0)
     east, north, level = _fitted(x, y, z, on, east, north)
     on &= np.abs(z - east * x - north * y - level) <= tolerance
-    on &= on[0]  # a plane that misses its own point is none
+    on &= on[0]  # a plane must hold its own point
     return np.column_stack([east, north, level]), on.T
 
 

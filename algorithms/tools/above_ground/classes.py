@@ -164,7 +164,7 @@ def classes_above_ground(
     parameters: AboveGround = AboveGround(),
     progress: Progress = SILENT,
 ) -> np.ndarray:
-    """Return the class of each point, uint8 (n,): 2 for ground, of which there must be a point,
+    """Return the class of each point, uint8 (n,): 2 for ground, at least one point,
     else 1, 3, 4, 5, 6, 17 or 18.
     """
     heights = height_above_ground(points, ground, progress.part(0.0, 0.4))

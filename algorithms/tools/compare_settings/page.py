@@ -58,7 +58,7 @@ class Figures(NamedTuple):
     # mean absolute, in metres, from the first setting; None without terrain
     terrain_difference: float | None
     shell: str  # the command line
-    qgis: str  # the call in the Python console of QGIS; empty if there is none
+    qgis: str  # the call in the Python console of QGIS; or empty
 
 
 def figures_of(

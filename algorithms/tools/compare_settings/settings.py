@@ -37,7 +37,7 @@ class Setting(NamedTuple):
 
     def commands(self, paths: Inputs) -> tuple[str, str]:
         """Return the command that runs the setting on all points, and the call in the console of
-        QGIS, which is empty if there is none.
+        QGIS, or empty.
         """
         is_one, (stem, suffix) = paths.output_kind == "cloud", split_name(paths[0])
         output = f"{stem}_{self.name.replace(':', '_')}{suffix if is_one else ''}"

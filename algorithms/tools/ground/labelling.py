@@ -45,7 +45,7 @@ _CELL = 0.5
 
 
 class Label(IntEnum):
-    """The result for a point; 0 is none of these."""
+    """The result for a point; 0 is anything else."""
 
     GROUND = 1
     LOW = 2
@@ -217,7 +217,7 @@ def tell(progress: Progress, blocks: list[BlockMessages]) -> None:
 
 
 def tell_of_continued(count: int, progress: Progress) -> None:
-    """Report how many points became ground by answers, or warn if there is none."""
+    """Report how many points became ground by answers, or warn if no point did."""
     if count:
         words = "point continues the ground", "points continue the ground"
         progress.info(f"{counted(count, *words)} in places with the answer 'ground'.")

@@ -51,7 +51,7 @@ class LabelGround(PointStep):
     area: Area | None = None  # points outside keep their class; those near it are context
     output: Output = field(default_factory=Output)  # which points are written
     cut: Blocks | None = None  # the blocks, if not those of the method
-    corrections: Corrections = NO_CORRECTIONS  # beside those that the files remember
+    corrections: Corrections = NO_CORRECTIONS  # beside the ones that the files remember
 
     counts = PointCounts
     weight = 5.0
@@ -92,7 +92,7 @@ class LabelGround(PointStep):
     def decided(
         self, part: PointCloud, values: np.ndarray, inside: np.ndarray, by_hand: ByHand | None
     ) -> PointCloud:
-        """Return points with their new classes, given those that change, and those set by hand; if
+        """Return points with their new classes, given which change, and which are set by hand; if
         only the area is written, the others become withheld.
         """
         ground, low, decks, high = (values == label for label in Label)
@@ -140,7 +140,7 @@ class LabelGround(PointStep):
         self, done: Sequence[Summary], empty: Sequence[LasFile], progress: Progress
     ) -> None:
         """Tell which files have no ground and which classes stay, and warn if no point lies in the
-        area or in the corrections; refuse files none of which has ground.
+        area or in the corrections; refuse files if none has ground.
         """
         if self.output.area_only:
             super().tell_of_survey(done, empty, progress)

@@ -41,7 +41,7 @@ class Summary(TileSummary):
 
     @property
     def without_ground(self) -> WithoutGround:
-        """What is told of one of many files in which no ground was found."""
+        """The warning about one of many files in which no ground was found."""
         took_part = self.selected_count or self.class_counts != self.input_class_counts
         fate = "written as not ground" if took_part else UNCHANGED
         return WithoutGround(self.name, self.area_count, fate, self.why_no_ground)

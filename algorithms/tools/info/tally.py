@@ -28,7 +28,7 @@ BYTES_A_POINT = 8 * len(_KEYS)
 
 
 class Keys:
-    """Collects keys of points, of which some are equal."""
+    """Collects keys of points, some of them equal."""
 
     def __init__(self, keys: np.ndarray) -> None:
         self._keys, self._count = keys, 0

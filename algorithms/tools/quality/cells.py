@@ -287,7 +287,7 @@ class QualityCells:
             _add(coarse[near], *sums)
 
     def surveyed(self, rows: slice, is_coarse: bool) -> Iterator[Rectangle]:
-        """Yield rectangles that hold the survey in some rows, of which the first is even."""
+        """Yield rectangles that hold the survey in some rows; the first row is even."""
         scale = 1 if is_coarse else 2
         for part in parts_with(self.extent.inside[rows.start // scale : rows.stop // scale], 0):
             row, column = part.core

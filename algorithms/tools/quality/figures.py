@@ -13,7 +13,7 @@ PASSED = "pass"
 FAILED = "fail"
 LOOK = "look"
 _GROUND = 2
-# Fewest cells of which differences between strips pass.
+# Fewest cells with which differences between strips pass.
 _FEWEST_CELLS = 30
 
 
@@ -95,7 +95,7 @@ class Quality:
 
     @property
     def left(self) -> list[Line]:
-        """The comparisons that fail, and those that a person must look at."""
+        """The comparisons that fail, and the ones that a person must look at."""
         return [line for line in self.comparison if line.state != PASSED]
 
     @property

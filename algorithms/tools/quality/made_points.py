@@ -66,7 +66,7 @@ class MadePoints:
         self._counts_synthetic = True
 
     def add(self, part: PointCloud, used: np.ndarray) -> None:
-        """Look at the source ids of a part of the points, of which some are used."""
+        """Look at the source ids of a part of the points; some points are used."""
         used = used & ~self.infilled(part)
         own = PRODUCERS_CLASSES[part.classification]
         strip = np.asarray(part.strip)

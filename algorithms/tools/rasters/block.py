@@ -1,4 +1,4 @@
-"""Makes the layers of a block of a survey, of which rasters are made."""
+"""Makes the layers of a block of a survey, which rasters are made of."""
 
 from __future__ import annotations
 
@@ -156,7 +156,7 @@ def _errors(
     made: Made,
     progress: Progress,
 ) -> LayerCells:
-    """Return the expected error and its cause, those that are wanted, at the centre of each cell;
+    """Return the expected error and its cause, if wanted, at the centre of each cell;
     their evidence is found once, in cells of 1 m.
     """
     found = {

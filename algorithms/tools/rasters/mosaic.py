@@ -23,7 +23,7 @@ from .level_water import NO_WATER_CELLS, WaterCells
 def joined(
     blocks: Sequence[BlockRasters], layer: str, window: CellWindow, empty: np.generic
 ) -> np.ndarray:
-    """Return the cells of a layer in a window, rows from the south; `empty` where there is none."""
+    """Return the cells of a layer in a window, rows from the south; `empty` in voids."""
     cells = np.full(window.shape, empty)
     for block in blocks:
         shared = window.within(block.window)

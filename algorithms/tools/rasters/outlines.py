@@ -126,7 +126,7 @@ class Squares(NamedTuple):
 
     @classmethod
     def of(cls, row: np.ndarray, column: np.ndarray, cells: np.ndarray) -> Squares:
-        """Return the squares, of which some are given several times."""
+        """Return the squares, some of them several times."""
         has = cells > 0
         width = int(column.max(initial=0)) + 1
         places, back = np.unique(row[has] * width + column[has], return_inverse=True)

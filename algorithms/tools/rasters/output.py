@@ -41,7 +41,7 @@ WriteCells = Callable[[Path, RasterCells, RasterGrid, float, Progress, str], Non
 
 @dataclass(frozen=True)
 class Drawing:
-    """The rasters to make, and all that their cells depend on beside the points."""
+    """The rasters to make, and everything else that their cells depend on."""
 
     files: RasterFiles = field(default_factory=RasterFiles)
     model: TerrainModel = field(default_factory=TerrainModel)

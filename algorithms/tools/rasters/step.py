@@ -39,7 +39,7 @@ from .fixed_terrain import fixed_terrain
 from .output import AROUND_AREA, Drawing, RasterSize, no_point_in, write_rasters
 
 _Array = TypeVar("_Array", np.ndarray, RowsOnDisk)
-# Points are thinned to one a cell unless the cells are more than ten times as many as the points,
+# Points are thinned to one a cell unless there are more than ten cells a point,
 # of which hardly two would share one.
 _MOST_THINNED = 10
 # Bytes that a block takes for each point in it and its buffer, and for each cell.
@@ -187,7 +187,7 @@ class MakeRasters(Drawing, Sink):
         return [*(wet if BOTTOM in classes else SUBMERGED), *(_old(part, wet) if is_old else ())]
 
     def _thinned(self, part: PointCloud, shown: np.ndarray) -> np.ndarray:
-        """Return one point of each cell of those that are shown."""
+        """Return one point of each cell that is shown."""
         indices = np.flatnonzero(shown)
         if len(indices):
             x, y = part.places(indices, survey_frame(part.crs, self.origin))

@@ -31,7 +31,7 @@ def surfaces(
     made: Made,  # with the terrain, if the canopy is wanted
     progress: Progress,
 ) -> LayerCells:
-    """Return the surface and the canopy, those that are wanted, without points that hang in the
+    """Return the surface and the canopy, if wanted, without points that hang in the
     air, such as birds.
     """
     chosen = view.top

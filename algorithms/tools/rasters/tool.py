@@ -93,7 +93,7 @@ def _found(sources: Inputs, ground: GroundClasses, progress: Progress) -> Constr
 
 
 def _in_dialog() -> tuple[Output, ...]:
-    """Return the rasters in the dialog: not those that the tool for reliefs makes."""
+    """Return the rasters in the dialog, without the ones that the tool for reliefs makes."""
     names = [name for name, row in RASTERS.items() if not row.is_relief or name == "hillshade"]
     return tuple(output for output in maps() if output.name in names)
 

@@ -30,7 +30,7 @@ _CHANGED = 0.01  # metres, from which on the height of a cell has changed
 def sorted_by_answers(
     places: Sequence[PlaceToReview], raster: Raster, corrections: Corrections
 ) -> tuple[list[PlaceToReview], int]:
-    """Return the places without an answer, those that were skipped last, and how many have one."""
+    """Return the places without an answer, skipped ones last, and how many have one."""
     waits = [answer == SKIP for answer in corrections.answers]
     done = _are_in(places, raster, _chosen(corrections, waits, False))
     skipped = _are_in(places, raster, _chosen(corrections, waits, True))
@@ -46,7 +46,7 @@ def _chosen(corrections: Corrections, waits: Sequence[bool], which: bool) -> tup
 def _are_in(
     places: Sequence[PlaceToReview], raster: Raster, polygons: tuple[Polygon, ...]
 ) -> np.ndarray:
-    """Return of which places the worst cell lies in a polygon; bool, (n,)."""
+    """Return whether the worst cell of each place lies in a polygon; bool, (n,)."""
     if not polygons or not places:
         return np.zeros(len(places), dtype=bool)
     x, y = corners_of(np.array([place.worst for place in places]), raster).T

@@ -28,7 +28,7 @@ _RELIEF = "{rise} of relief"
 _BORDER = "beside water or the border of the survey"
 # All parts of reasons, with fields for figures.
 TEXTS = (*_REASONS.values(), _UNKNOWN, _RELIEF, _BORDER)
-CAUSES = len(_REASONS)  # numbers from 1 on; 0 is none
+CAUSES = len(_REASONS)  # numbers from 1 on; 0 is no cause
 
 
 class Figures(NamedTuple):

@@ -189,7 +189,7 @@ class _Search:
     def regions(
         self, level: np.ndarray, covered: np.ndarray, progress: Progress
     ) -> Iterator[_Region]:
-        """Yield the connected regions that are large enough, without those that are covered."""
+        """Yield the connected regions that are large enough and not covered."""
         cells = _without_links(closing(self.grid.candidates() | level, _CLOSE) & ~covered)
         below = below_decks(cells, self.grid)
         least = _LEAST_PART * self.least

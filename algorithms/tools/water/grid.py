@@ -62,7 +62,7 @@ class WaterGrid:
         west, south, east, north = (math.floor(side / cell) for side in box)
         self.cell, self.row, self.column = cell, south, west
         self.shape = north - south + 1, east - west + 1
-        # Lowest last return and lowest ground point in metres; infinite where there is none.
+        # Lowest last return and lowest ground point in metres; infinite without such points.
         self.lowest, self.ground = (np.full(self.shape, np.inf, np.float32) for _ in range(2))
         # Last returns, and those of class 9.
         self.counts, self.water = (np.zeros(self.shape, np.uint16) for _ in range(2))

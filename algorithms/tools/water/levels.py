@@ -66,7 +66,7 @@ class Shore(NamedTuple):
     places: np.ndarray
     lowest: np.ndarray  # float64, (n,): their lowest ground, in which the bank hardly counts
     # float64, (n,): metres by which the lowest ground a few cells farther out, or an embankment, is
-    # higher; NaN where there is none
+    # higher; NaN in other cells
     rises: np.ndarray
     heights: np.ndarray  # float64, (m,): the ground of all cells of the shore
     known: float  # share of the squares along the shore that have ground
@@ -105,7 +105,7 @@ def shore_of(
     """Return the shore of a region with a margin of `MARGIN` cells, without `hidden` cells such as
     abutments of bridges; None if no cell of it has ground.
     """
-    # `ground` is infinite where there is none, and the side of a cell is in metres.
+    # `ground` is infinite in cells without ground, and the side of a cell is in metres.
     from scipy.ndimage import distance_transform_cdt
 
     # 0 is a cell of the water at its edge: in sparse points the bank begins in it.
@@ -301,10 +301,10 @@ class _Step(NamedTuple):
 def parts_of_step(
     water: np.ndarray, levels: Levels, ground: np.ndarray
 ) -> list[tuple[np.ndarray, np.ndarray]]:
-    """Return the parts of a river above and below its highest step, as their cells and those that
-    are not their shore: none without a step, one if water flows round it.
+    """Return the parts of a river above and below its highest step, as their cells and the cells
+    off their shore: none without a step, one if water flows round it.
     """
-    # `ground` is infinite where there is none.
+    # `ground` is infinite in cells without ground.
     reaches = levels.reaches
     steps = [step for chain in levels.chains for step in _steps(levels.heights, chain)]
     if reaches is None or not steps:
