@@ -1,5 +1,5 @@
 # The set-up is all in tools/environment: it makes what is missing, below build/.
-.PHONY: help demo test test-all test-rest test-long lint test-qgis coverage evidence docs translations package clean
+.PHONY: help demo test test-all test-rest test-long lint test-qgis coverage evidence docs translations package release clean
 
 help:  ## list the targets
 	@sed -n 's/^\([a-z-]*\):.*## /  \1\t/p' Makefile | expand -t 14
@@ -34,6 +34,9 @@ translations:  ## write what there is to translate into plugin/i18n/*.ts, and tr
 
 package:  ## pack the last commit, with laspy, as dist/bare_earth-X.Y.Z.zip, to install in QGIS
 	@tools/environment package
+
+release:  ## build zip, sdist, wheel and recipe of the last commit into dist/, and check them as plugins.qgis.org, PyPI and conda do
+	@tools/environment release
 
 coverage:  ## tell which lines no test runs, those of the plugin in the real QGIS
 	@tools/test coverage

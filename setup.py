@@ -1,6 +1,8 @@
-"""What pyproject.toml cannot say: which packages there are, and that a wheel has stubs."""
+"""What pyproject.toml cannot say: packages, stubs of a wheel, addresses, links of README."""
 
+import configparser
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -31,9 +33,27 @@ class WithStubs(build_py):
             )  # fmt: skip
 
 
+def addresses():
+    """Return the addresses that metadata.txt states, where QGIS reads them, too."""
+    metadata = configparser.ConfigParser()
+    metadata.read(ROOT / "metadata.txt", encoding="utf-8")
+    return {name: metadata["general"][name] for name in ("homepage", "repository", "tracker")}
+
+
+def readme(repository):
+    """Return README.md with links and pictures in the repository: PyPI has no other file."""
+    text = (ROOT / "README.md").read_text(encoding="utf-8")
+    text = re.sub(r"(!\[[^]]*\]\()(?!https?:)", rf"\g<1>{repository}/raw/main/", text)
+    return re.sub(r"(\]\()(?!https?:)", rf"\g<1>{repository}/blob/main/", text)
+
+
 if __name__ == "__main__":  # this file lies in the package, too
     found = find_packages(str(ROOT), include=["algorithms*"])
+    urls = addresses()
     setup(
+        long_description=readme(urls["repository"]),
+        long_description_content_type="text/markdown",
+        project_urls={name.capitalize(): address for name, address in urls.items()},
         packages=["bare_earth", *(f"bare_earth.{name}" for name in found)],
         cmdclass={"build_py": WithStubs},
     )

@@ -27,8 +27,8 @@ GIT = ["git", "-c", f"safe.directory={ROOT}", "-C", str(ROOT)]
 UNSET = "# To be set before publishing:"
 
 
-def main(folder: Path = ROOT / "dist") -> None:
-    """Pack, and say what is to be done before the zip is published."""
+def main(folder: Path = ROOT / "dist") -> Path:
+    """Pack, say what is to be done before the zip is published, and return the zip."""
     metadata = configparser.ConfigParser(interpolation=None)
     text = _git("show", "HEAD:metadata.txt").decode()
     metadata.read_string(text)
@@ -55,6 +55,7 @@ def main(folder: Path = ROOT / "dist") -> None:
     print(f"{target} ({target.stat().st_size / 1e6:.1f} MB)")
     for key in re.findall(r"\w+", "".join(re.findall(f"^{UNSET}(.*)$", text, re.M))):
         print(f"To be set in metadata.txt before publishing: {key}={metadata['general'][key]}")
+    return target
 
 
 def _git(*arguments: str) -> bytes:
