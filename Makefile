@@ -1,5 +1,5 @@
 # The set-up is all in tools/environment: it makes what is missing, below build/.
-.PHONY: help demo test test-all test-rest test-long lint test-qgis coverage evidence docs translations package release clean
+.PHONY: help demo test test-all test-rest test-long lint test-qgis coverage judge evidence docs translations package release clean
 
 help:  ## list the targets
 	@sed -n 's/^\([a-z-]*\):.*## /  \1\t/p' Makefile | expand -t 14
@@ -40,6 +40,9 @@ release:  ## build zip, sdist, wheel and recipe of the last commit into dist/, a
 
 coverage:  ## tell which lines no test runs, those of the plugin in the real QGIS
 	@tools/test coverage
+
+judge:  ## compare the filters with those of the last commit, or of AGAINST=main, in two minutes: a table for a pull request
+	@tools/environment python -m benchmarks.judge $(if $(AGAINST),--against $(AGAINST))
 
 evidence:  ## measure the pages of benchmarks/results/ that are older than the code, and the tables made from them; PART=plain: a part
 	@tools/environment python -m benchmarks.evidence --run $(PART)

@@ -5,24 +5,23 @@ from __future__ import annotations
 import argparse
 from dataclasses import dataclass
 from pathlib import Path
-from typing import NamedTuple
+from typing import Iterable, NamedTuple, Sequence
 
 import laspy
-import matplotlib
 import numpy as np
-
-matplotlib.use("Agg")
-
-from matplotlib import pyplot
-from matplotlib.colors import ListedColormap
-from matplotlib.patches import Patch
 
 from bare_earth.algorithms.crs.system import unit_symbol
 from bare_earth.algorithms.rasters.geotiff import read_raster
+from bare_earth.algorithms.report.pictures import HEIGHTS, ramped, rgb
+
+from .canvas import Canvas
 
 GROUND = 2
-_PIXELS = 700
+_SIDE = 700  # pixels of the longer side of a map
+_PROFILE = 360
+_MARGIN = 70
 _STRIPS = 40
+_TICKS = 7
 # Told apart by colour-blind eyes, and in print.
 _COLOURS = {
     "none": "#ffffff",
@@ -31,7 +30,7 @@ _COLOURS = {
     "ground taken for other": "#d1157f",
     "other taken for ground": "#f07f09",
 }
-_SUPTITLE = {"fontsize": 15, "x": 0.012, "ha": "left", "fontweight": "bold"}
+_NAMES = list(_COLOURS)
 
 
 @dataclass(frozen=True)
@@ -67,6 +66,12 @@ class Truth(NamedTuple):
     unlabelled: tuple[int, ...] = ()  # classes of points whose truth is not known
 
 
+class _Map(NamedTuple):
+    title: str
+    pixels: np.ndarray
+    labels: dict[str, str]  # of its colours
+
+
 def draw(
     cloud: Path,
     dtm: Path,
@@ -92,22 +97,26 @@ def draw(
         The heading.
     """
     view = _view(cloud, dtm, hillshade, truth)
-    count = 2 if truth is None else 3
-    figure = pyplot.figure(figsize=(6.0 * count, 10.4), layout="constrained", dpi=110)
-    figure.suptitle(title, **_SUPTITLE)
-    upper, lower = figure.subfigures(2, 1, height_ratios=(6.2, 4.0))
-    panels = upper.subplots(1, count)
     northing = busiest_northing(view) if northing is None else northing
-    _draw_relief(panels[0], view)
-    _draw_plan(panels[1], view)
-    if truth is not None:
-        _draw_errors(panels[2], view)
-    for panel in panels:
-        panel.axhline(northing, color="black", linewidth=0.8, linestyle=(0, (6, 4)))
-        panel.set(xticks=[], yticks=[], xlim=view.extent[:2], ylim=view.extent[2:])
-    _draw_profile(lower.subplots(), view, northing, truth is not None)
-    figure.savefig(target)
-    pyplot.close(figure)
+    west, east, south, north = view.extent
+    scale = _SIDE / max(east - west, north - south)
+    shape = round((east - west) * scale), round((north - south) * scale)
+    maps = [_relief(view), _plan(view)] + ([_errors(view)] if truth is not None else [])
+    width = _MARGIN + len(maps) * (shape[0] + _MARGIN)
+    canvas = Canvas(width, shape[1] + _PROFILE + 260)
+    canvas.text(20, 14, title, 22)
+    for number, (name, pixels, labels) in enumerate(maps):
+        x = _MARGIN + number * (shape[0] + _MARGIN)
+        canvas.text(x, 54, name, 16)
+        canvas.pixels(pixels, x, 80, shape)
+        cut = 80 + (north - northing) * scale
+        for dash in range(0, shape[0] - 5, 12):
+            canvas.line(np.array([x + dash, x + dash + 7]), np.array([cut, cut]))
+        canvas.keys(x, 80 + shape[1] + 16, {_COLOURS[name]: key for name, key in labels.items()})
+    _draw_bar(canvas, view, (_MARGIN, 80 + shape[1] + 16))
+    top = shape[1] + 170
+    _draw_profile(canvas, view, northing, (_MARGIN, top, width - 2 * _MARGIN), truth is not None)
+    canvas.save(target)
 
 
 def _view(cloud: Path, dtm: Path, hillshade: Path, truth: Truth | None) -> View:
@@ -133,81 +142,119 @@ def _view(cloud: Path, dtm: Path, hillshade: Path, truth: Truth | None) -> View:
     return View(x, y, z, kind, terrain.heights, shade, terrain.geotransform, extent, units)
 
 
-def _draw_relief(panel: pyplot.Axes, view: View) -> None:
-    shade = np.ma.masked_invalid(view.hillshade)
-    panel.imshow(shade, cmap="gray", extent=view.extent, vmin=0, vmax=255)
+def _limits(view: View) -> tuple[float, float]:
+    """Return the heights that have the first and the last colour."""
     # A few odd heights must not take the colours of all the rest.
     low, high = np.nanpercentile(view.dtm, (1, 99))
-    image = panel.imshow(
-        view.dtm, cmap="gist_earth", extent=view.extent, alpha=0.35, vmin=low, vmax=high
-    )
-    bar = panel.figure.colorbar(image, ax=panel, shrink=0.6, pad=0.01)
-    bar.solids.set_alpha(1)
-    bar.set_label(f"Height [{view.units[1]}]")
-    panel.set_title("Terrain model", loc="left")
+    return float(low), float(max(high, low + 0.01))
 
 
-def _draw_plan(panel: pyplot.Axes, view: View) -> None:
-    """Draw the highest point of each pixel, as one sees it from above."""
+def _relief(view: View) -> _Map:
+    colours = ramped(view.dtm, HEIGHTS, *_limits(view))
+    shade = np.nan_to_num(view.hillshade, nan=255.0)[..., None]
+    pixels = np.where(np.isnan(view.dtm)[..., None], 255, 0.6 * shade + 0.4 * colours)
+    return _Map("Terrain model", pixels.astype(np.uint8), {})
+
+
+def _plan(view: View) -> _Map:
+    """Return the highest point of each pixel, as one sees it from above."""
     as_classified = np.choose(view.kind, (0, 1, 2, 2, 1))
     order = np.argsort(view.z, kind="stable")
-    _imshow(panel, _pixels(view, order, as_classified[order]), view)
-    panel.set_title("Seen from above", loc="left")
+    pixels = _palette(_pixels(view, order, as_classified[order]))
     share = 100 * np.count_nonzero(as_classified == 1) / len(view.z)
-    panel.legend(
-        handles=_handles({"ground": f"ground ({share:.1f} %)", "other": "other"}),
-        loc="lower right",
-        framealpha=1,
-    )
+    return _Map("Seen from above", pixels, {"ground": f"ground ({share:.1f} %)", "other": "other"})
 
 
-def _draw_errors(panel: pyplot.Axes, view: View) -> None:
+def _errors(view: View) -> _Map:
     wrong = np.flatnonzero(view.kind > 2)
-    panel.imshow(view.hillshade, cmap="gray", extent=view.extent, vmin=-250, vmax=255, alpha=0.6)
-    pixels = _pixels(view, wrong, view.kind[wrong])
+    kinds = _pixels(view, wrong, view.kind[wrong])
     # A single pixel is too small to see.
-    for axis, step in ((0, 1), (1, 1)):
-        pixels = np.maximum(pixels, np.roll(pixels, step, axis))
-    _imshow(panel, np.ma.masked_equal(pixels, 0), view)
-    names = list(_COLOURS)
+    for axis in (0, 1):
+        kinds = np.maximum(kinds, np.roll(kinds, 1, axis))
+    rows, columns = (np.arange(n) * of // n for n, of in zip(kinds.shape, view.hillshade.shape))
+    shade = np.nan_to_num(view.hillshade, nan=255.0)[rows[:, None], columns]
+    pale = (150 + 105 * shade / 255)[..., None]
+    pixels = np.where(kinds[..., None] > 0, _palette(kinds), pale).astype(np.uint8)
     counts = {
-        names[kind]: f"{names[kind]} ({np.count_nonzero(view.kind == kind):,})" for kind in (3, 4)
+        _NAMES[kind]: f"{_NAMES[kind]} ({np.count_nonzero(view.kind == kind):,})" for kind in (3, 4)
     }
-    panel.set_title("Errors against the truth", loc="left")
-    panel.legend(handles=_handles(counts), loc="lower right", framealpha=1)
+    return _Map("Errors against the truth", pixels, counts)
 
 
-def _draw_profile(panel: pyplot.Axes, view: View, northing: float, with_errors: bool) -> None:
+def _draw_bar(canvas: Canvas, view: View, place: tuple[int, int]) -> None:
+    """Draw the colours of heights below the relief."""
+    x, y = place
+    low, high = _limits(view)
+    canvas.pixels(
+        ramped(np.linspace(low, high, 200)[None], HEIGHTS, low, high), x, y - 6, (200, 12)
+    )
+    canvas.text(x + 210, y, f"height {low:.1f} to {high:.1f} {view.units[1]}", anchor="lm")
+
+
+def _draw_profile(
+    canvas: Canvas, view: View, northing: float, place: tuple[int, int, int], with_errors: bool
+) -> None:
+    left, top, width = place
     west, east, south, north = view.extent
     half = (north - south) / 200
     cut = np.flatnonzero(np.abs(view.y - northing) < half)
-    column = np.arange(view.dtm.shape[1])
     row = int((northing - view.geotransform[3]) / view.geotransform[5])
     line = view.dtm[min(max(row, 0), view.dtm.shape[0] - 1)]
-    names = list(_COLOURS)
-    for kind in range(1, 5):
-        which = cut[view.kind[cut] == kind]
-        size = 2.5 if kind < 3 else 14
-        colour = _COLOURS[names[kind]]
-        panel.scatter(view.x[which] - west, view.z[which], size, colour, linewidths=0, zorder=kind)
-    centres = (column + 0.5) * view.geotransform[1]
-    panel.plot(centres, line, color="black", linewidth=1.0, zorder=5)
     spread = np.nanmax(line) - np.nanmin(line)
     # Noise far above and far below would flatten all the rest.
-    panel.set_ylim(
-        min(np.percentile(view.z[cut], 0.05), np.nanmin(line)) - 0.1 * spread - 1,
-        np.percentile(view.z[cut], 99.9) + 0.1 * spread + 2,
-    )
-    panel.set_xlim(0, east - west)
+    low = min(np.percentile(view.z[cut], 0.05), np.nanmin(line)) - 0.1 * spread - 1
+    high = np.percentile(view.z[cut], 99.9) + 0.1 * spread + 2
+
+    def at(along: np.ndarray, z: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        return left + along / (east - west) * width, top + (high - z) / (high - low) * _PROFILE
+
     across = f"{2 * half:.1f} {view.units[0]} wide"
-    panel.set_title(f"Profile from west to east, {across}, along the dashed line", loc="left")
-    panel.set(xlabel=f"From the west [{view.units[0]}]", ylabel=f"Height [{view.units[1]}]")
-    shown = names[1:] if with_errors else names[1:3]
-    handles = _handles({name: name for name in shown})
-    handles += panel.plot([], [], color="black", label="terrain model")
-    panel.legend(handles=handles, loc="upper left", ncols=len(handles), framealpha=1)
-    panel.grid(color="#dddddd", linewidth=0.5)
-    panel.set_axisbelow(True)
+    canvas.text(left, top - 52, f"Profile from west to east, {across}, along the dashed line", 16)
+    _draw_axes(canvas, place, (east - west, low, high), view.units)
+    is_seen = (view.z[cut] > low) & (view.z[cut] < high)
+    for kind in range(1, 5):
+        which = cut[is_seen & (view.kind[cut] == kind)]
+        size = 3 if kind < 3 else 5
+        canvas.dots(*at(view.x[which] - west, view.z[which]), size, _COLOURS[_NAMES[kind]])
+    centres = (np.arange(len(line)) + 0.5) * view.geotransform[1]
+    known = np.flatnonzero(np.isfinite(line))
+    for run in np.split(known, np.flatnonzero(np.diff(known) > 1) + 1):
+        canvas.line(*at(centres[run], line[run]), width=1.5)
+    shown = _NAMES[1:] if with_errors else _NAMES[1:3]
+    canvas.keys(left, top + _PROFILE + 60, {_COLOURS[name]: name for name in shown})
+    end = left + width
+    canvas.line(np.array([end - 130, end - 100]), np.full(2, top + _PROFILE + 60), 1.5)
+    canvas.text(end - 92, top + _PROFILE + 60, "terrain model", anchor="lm")
+
+
+def _draw_axes(
+    canvas: Canvas, place: tuple[int, int, int], ends: tuple[float, ...], units: Sequence[str]
+) -> None:
+    left, top, width = place
+    length, low, high = ends
+    bottom = top + _PROFILE
+    for value in _round_values(0.0, length):
+        x = left + value / length * width
+        canvas.line(np.array([x, x]), np.array([top, bottom + 4]), colour="#dddddd")
+        canvas.text(x, bottom + 8, f"{value:g}", anchor="ma")
+    for value in _round_values(low, high):
+        y = top + (high - value) / (high - low) * _PROFILE
+        canvas.line(np.array([left, left + width]), np.array([y, y]), colour="#dddddd")
+        canvas.text(left - 6, y, f"{value:g}", anchor="rm")
+    right = left + width
+    canvas.line(
+        np.array([left, right, right, left, left]), np.array([top, top, bottom, bottom, top])
+    )
+    canvas.text(left + width / 2, bottom + 28, f"from the west [{units[0]}]", anchor="ma")
+    canvas.text(left - 50, top - 8, f"height [{units[1]}]", anchor="ls")
+
+
+def _round_values(low: float, high: float) -> Iterable[float]:
+    """Return about `_TICKS` round values between two others."""
+    rough = (high - low) / _TICKS
+    power = 10.0 ** np.floor(np.log10(rough))
+    step = next(power * one for one in (1, 2, 5, 10) if power * one >= rough)
+    return np.arange(np.ceil(low / step), np.floor(high / step) + 1) * step
 
 
 def busiest_northing(view: View) -> float:
@@ -226,7 +273,7 @@ def busiest_northing(view: View) -> float:
 def _pixels(view: View, which: np.ndarray, values: np.ndarray) -> np.ndarray:
     """Return an image of values of points, of which a later one covers an earlier one."""
     west, east, south, north = view.extent
-    pixel = max(east - west, north - south) / _PIXELS
+    pixel = max(east - west, north - south) / _SIDE
     # Where points are sparse, pixels follow them, so that few stay empty.
     pixel = max(pixel, 1.8 * np.sqrt((east - west) * (north - south) / max(len(view.x), 1)))
     shape = int(np.ceil((north - south) / pixel)), int(np.ceil((east - west) / pixel))
@@ -237,13 +284,9 @@ def _pixels(view: View, which: np.ndarray, values: np.ndarray) -> np.ndarray:
     return image
 
 
-def _imshow(panel: pyplot.Axes, pixels: np.ndarray, view: View) -> None:
-    colours = ListedColormap(list(_COLOURS.values()))
-    panel.imshow(pixels, cmap=colours, vmin=0, vmax=4, extent=view.extent, interpolation="nearest")
-
-
-def _handles(labels: dict[str, str]) -> list[Patch]:
-    return [Patch(color=_COLOURS[name], label=label) for name, label in labels.items()]
+def _palette(kinds: np.ndarray) -> np.ndarray:
+    """Return the pixels of kinds in their colours."""
+    return np.array([rgb(colour) for colour in _COLOURS.values()], dtype=np.uint8)[kinds]
 
 
 def main() -> None:

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import laspy
 import pytest
+import release
 from surveys import strip, write
 
 import bare_earth
@@ -77,11 +78,7 @@ def tools(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def built(tools, tmp_path_factory):
-    """The wheel and the sdist, and what was said."""
-    folder = tmp_path_factory.mktemp("built")
-    run("git", "clone", "--quiet", ROOT, folder / "source")
-    said = run(tools, "-m", "build", "--outdir", folder / "dist", folder / "source")
-    return sorted((folder / "dist").iterdir()), said
+    return release.distributions(tmp_path_factory.mktemp("built"), tools)
 
 
 @pytest.fixture(scope="module")
@@ -99,22 +96,22 @@ def test_every_extra_is_used_here():
 
 
 def test_wheel_and_sdist_are_as_pypi_wants_them(built, tools):
-    files, said = built
-    assert [file.name.rpartition(".")[2] for file in files] == ["whl", "gz"]
-    assert "deprecat" not in said.replace("deprecation_", "").lower(), said
-    assert run(tools, "-m", "twine", "check", "--strict", *files).count("PASSED") == 2
-    names = zipfile.ZipFile(files[0]).namelist()
-    assert {name.split("/")[0].split("-")[0] for name in names} == {"bare_earth"}
+    assert "deprecat" not in built.said.replace("deprecation_", "").lower(), built.said
+    release.check_distributions(built, tools)
+    names = zipfile.ZipFile(built.wheel).namelist()
     made = ("py.typed", "metadata.txt", "__init__.pyi", "arrays.pyi")
     there = run("git", "ls-files", "algorithms", cwd=ROOT).split()
     for name in (*made, *there):
         assert f"bare_earth/{name}" in names
-    assert not [name for name in names if "/tests/" in name or "/plugin/" in name]
+    # PyPI has no other file: links and pictures of README lead to the repository.
+    (metadata,) = (name for name in names if name.endswith(".dist-info/METADATA"))
+    links = re.findall(r"\]\(([^)]*)\)", zipfile.ZipFile(built.wheel).read(metadata).decode())
+    assert len(links) > 20 and all(link.startswith("https://") for link in links)
 
 
 @pytest.mark.parametrize("extra", USES)
 def test_an_extra_works_alone(extra, built, work, tmp_path):
-    (wheel, _), _ = built
+    wheel = built.wheel
     python = environment(tmp_path / "venv", f"{wheel}[{extra}]" if extra else wheel)
     script = tmp_path / "script.py"
     script.write_text(BEGIN + USES[extra])
@@ -134,13 +131,9 @@ def test_an_extra_works_alone(extra, built, work, tmp_path):
     assert min(float(run(python, "-c", timed)) for _ in range(3)) <= 0.15
 
 
-def test_the_recipe_for_conda_is_one(tools):
+def test_the_recipe_for_conda_is_one(built, tools):
     """The parser of rattler-build refuses what no recipe may have."""
-    code = (
-        "from pathlib import Path; from rattler_build import Stage0Recipe;"
-        f"recipe = Stage0Recipe.from_file(Path({str(ROOT / 'conda' / 'recipe.yaml')!r}));"
-        "(variant,) = recipe.render(); print(variant.recipe.package.name)"
-    )
     if sys.version_info < (3, 10):
         pytest.skip("rattler-build needs Python 3.10")
-    assert "bare-earth" in run(tools, "-c", code)
+    recipe = release.write_recipe(built.sdist, bare_earth.__version__)
+    assert release.check_recipe(recipe, tools) == f"bare-earth {bare_earth.__version__}"
