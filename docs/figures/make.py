@@ -1,4 +1,4 @@
-"""Makes the figures of the pages, by the project's own code on generated scenes.
+"""Makes the figures of the pages, by the project's own code on generated scenes and real land.
 
     tools/environment python docs/figures/make.py            all of them, in about two minutes
     tools/environment python docs/figures/make.py slope      those whose names begin so
@@ -45,8 +45,8 @@ from benchmarks.data import real
 from benchmarks.generated import TrueModel, score_scene
 from benchmarks.measure import Filter
 from benchmarks.scenes import make
+from demo.land import LANDS, write_unclassified
 from demo.picture import draw as draw_demo
-from demo.scene import write_scene
 
 METHODS = {"tin-densification": "TIN densification", "slope": "slope", "grid-minimum": "grid"}
 # A kind of scene of the reporting seeds, and what a reader calls it.
@@ -104,25 +104,31 @@ def main() -> None:
             make_figure()
 
 
-# The tile of `make demo`, from raw points to maps.
+# The tile of `make demo LAND=campus`, from raw points to maps.
+
+CELL = 0.5
+# Where its section lies, in metres from the south: it cuts the building, the wall and a tree.
+SECTION = 14.6
 
 
 def tutorial() -> None:
     """Draw what the pages on the first run show: the tile before, and what is made of it."""
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        cloud, truth, ground = (folder / f"{stem}.las" for stem in ("scene", "truth", "ground"))
-        write_scene(cloud, truth)
+        cloud, ground = folder / "campus.las", folder / "ground.las"
+        write_unclassified(LANDS["campus"].path, cloud)
         rasters = {stem: folder / f"{stem}.tif" for stem in ("dtm", "hillshade", "dsm", "chm")}
-        bare_earth.classify(cloud, ground, dtm=rasters["dtm"], hillshade=rasters["hillshade"])
-        bare_earth.terrain(ground, dsm=rasters["dsm"], chm=rasters["chm"])
+        maps_of_ground = {name: rasters[name] for name in ("dtm", "hillshade")}
+        bare_earth.classify(cloud, ground, **maps_of_ground, dtm_cell_size=CELL)
+        bare_earth.terrain(ground, dsm=rasters["dsm"], chm=rasters["chm"], dtm_cell_size=CELL)
         grids = {}
         for stem, path in rasters.items():
             with rasterio.open(path) as raster:
                 grids[stem] = raster.read(1, masked=True).astype(float).filled(np.nan)
         raw_points(cloud)
         target = IMAGES / "tutorial-classes.png"
-        draw_demo(ground, rasters["dtm"], rasters["hillshade"], target, northing=5_931_196.0)
+        northing = SECTION + float(laspy.read(cloud).header.mins[1])
+        draw_demo(ground, rasters["dtm"], rasters["hillshade"], target, northing=northing)
         with Image.open(target) as image:
             small = image.convert("RGB")
         small.thumbnail((1000, 1000))
@@ -136,16 +142,16 @@ def raw_points(cloud: Path) -> None:
     las = laspy.read(cloud)
     x, y, z = (np.asarray(axis) for axis in (las.x, las.y, las.z))
     x, y = x - x.min(), y - y.min()
-    figure = pyplot.figure(figsize=(8.2, 3.4), layout="constrained")
+    figure = pyplot.figure(figsize=(8.2, 2.4), layout="constrained")
     plan, side = figure.subplots(1, 2, width_ratios=(1.0, 1.7))
     low, high = np.percentile(z, (0.5, 99.5))
-    order = np.argsort(z)[::3]
+    order = np.argsort(z)
     plan.scatter(
-        x[order], y[order], 0.5, z[order], cmap="viridis", vmin=low, vmax=high, linewidths=0
+        x[order], y[order], 1.0, z[order], cmap="viridis", vmin=low, vmax=high, linewidths=0
     )
     plan.set(xticks=[], yticks=[], aspect="equal", title="From above, coloured by height")
-    plan.axhline(196.0, color="black", linewidth=0.8, linestyle=(0, (6, 4)))
-    near = np.abs(y - 196.0) < 1.5
+    plan.axhline(SECTION, color="black", linewidth=0.8, linestyle=(0, (6, 4)))
+    near = np.abs(y - SECTION) < 0.5
     side.scatter(x[near], z[near], 1.5, OTHER, linewidths=0)
     side.set(ylim=(low - 4, high + 8), title="From the side, along the dashed line; metres")
     side.grid(color="#dddddd", linewidth=0.4)
@@ -154,12 +160,12 @@ def raw_points(cloud: Path) -> None:
 
 def before_after(grids: dict[str, np.ndarray]) -> None:
     """Draw the surface that the laser met beside the terrain."""
-    figure, axes = pyplot.subplots(1, 2, figsize=(8.2, 4.3), layout="constrained")
+    figure, axes = pyplot.subplots(1, 2, figsize=(8.2, 3.0), layout="constrained")
     low, high = np.nanpercentile(grids["dtm"], (1, 99))
     for panel, name, title in zip(
         axes, ("dsm", "dtm"), ("Before: what the laser met", "After: the bare earth")
     ):
-        shade(panel, grids[name])
+        shade(panel, grids[name], CELL)
         panel.imshow(grids[name], cmap="gist_earth", alpha=0.35, vmin=low - 2, vmax=high + 8)
         panel.set_title(title, fontsize=10)
     save(figure, "before-after")
@@ -167,9 +173,9 @@ def before_after(grids: dict[str, np.ndarray]) -> None:
 
 def maps(grids: dict[str, np.ndarray]) -> None:
     """Draw terrain with contours, and canopy height over the hillshade."""
-    figure, axes = pyplot.subplots(1, 2, figsize=(8.2, 4.3), layout="constrained")
+    figure, axes = pyplot.subplots(1, 2, figsize=(8.2, 3.0), layout="constrained")
     for panel in axes:
-        shade(panel, grids["dtm"])
+        shade(panel, grids["dtm"], CELL)
     image = axes[0].imshow(grids["dtm"], cmap="gist_earth", alpha=0.35)
     # A bar of the image would be as pale as it.
     colours = ScalarMappable(image.norm, image.cmap)
