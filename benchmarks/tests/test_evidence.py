@@ -55,6 +55,7 @@ def parts(tmp_path, monkeypatch):
     return found
 
 
+@pytest.mark.rest
 def test_a_run_that_was_stopped_goes_on_with_what_is_left(parts, capsys):
     assert evidence.main(["--run", "one"]) == 0
     assert [is_current(part) for part in parts] == [True, False, False]

@@ -75,6 +75,7 @@ def test_values_are_scaled(value, less, more):
     assert scaled(value, 1.4) == pytest.approx(more)
 
 
+@pytest.mark.rest
 def test_values_are_measured_and_what_was_measured_is_kept(tmp_path, monkeypatch, capsys):
     monkeypatch.setattr(cache, "FOLDER", tmp_path)
     monkeypatch.setattr(work, "PROCESSES", 1)

@@ -335,6 +335,7 @@ def test_peers_that_are_there_write_every_point(survey, tmp_path):
     assert [run.cost.problem for run in runs] == [""] * len(peers)
 
 
+@pytest.mark.rest
 def test_missing_peers_say_what_installs_them():
     peers = [peer for peer in contestants.contestants() if peer.is_peer]
     programs = {"pdal", "lasr"}

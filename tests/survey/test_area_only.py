@@ -106,6 +106,7 @@ def test_a_file_within_the_bounds_but_without_a_point_is_not_written(inputs, tmp
     assert not summary.failures
 
 
+@pytest.mark.rest
 def test_heights_and_rasters_are_those_of_the_area(inputs, tmp_path):
     found = []
     for source, target, name in (("one.laz", "one.laz", "a"), ("in", "many", "b")):

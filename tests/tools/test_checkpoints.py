@@ -145,6 +145,7 @@ def test_many_files_equal_one(survey, tmp_path, monkeypatch):
     assert check([tmp_path], given, how) == one
 
 
+@pytest.mark.rest
 def test_held_out_points_are_the_same_in_each_run_and_tell_the_noise(tmp_path):
     random = np.random.default_rng(3)
     x, y = np.round(random.uniform(0, SIZE, (2, 30_000)), 3)

@@ -381,6 +381,7 @@ def test_measured_points_of_producers_classes_and_without_any_return_numbers_cou
     assert measured(lake, counts).infilled == len(x) and measured(lake).infilled == 0
 
 
+@pytest.mark.rest
 def test_all_figures_are_those_of_a_computation_by_hand(tmp_path):
     x, y, z, columns, is_made = infilled_scene(**MADE["no return"])
     random = np.random.default_rng(8)

@@ -164,6 +164,7 @@ def test_last_bits_of_errors_decide_nothing(least):
         assert found(error * (1.0 + random.uniform(-2e-7, 2e-7, error.shape))) == expected
 
 
+@pytest.mark.rest
 def test_answers_of_all_rounds_are_in_the_newest_layer(rasters, tmp_path):
     how = {"least_error": 0.1, "least_area": 0.0}
     first, _ = reviewed(rasters, **how)
@@ -249,6 +250,7 @@ def test_one_run_classifies_and_makes_the_places_with_carried_answers(rasters, t
     assert len(content["features"]) == len(found)
 
 
+@pytest.mark.rest
 def test_rasters_that_do_not_fit_into_memory_are_read_in_parts(rasters, tmp_path, monkeypatch):
     def made(name):
         files = [tmp_path / f"{name}{ending}" for ending in (".geojson", ".html")]
