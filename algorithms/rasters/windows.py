@@ -7,6 +7,7 @@ from typing import Any, Iterator, Protocol, Tuple
 import numpy as np
 
 from .geotiff import Raster
+from .stored import Stored
 
 # Cells that are read at a time, and that stay until others are looked at.
 _CELLS = 16_000_000
@@ -28,7 +29,7 @@ class RasterWindows:
     """The cells of a raster file in the order of the file, times a factor; NaN without value."""
 
     def __init__(self, raster: Raster, factor: float = 1.0) -> None:
-        self.shape, self.raster, self._stored = raster.whole, raster, raster.stored
+        self.shape, self.raster, self.stored = raster.whole, raster, raster.stored
         self._factor, self._first = np.float32(factor), 0
         self._held = np.zeros((0, raster.whole[1]), dtype=np.float32)
 
@@ -49,15 +50,20 @@ class RasterWindows:
     def _read(self, start: int, end: int) -> np.ndarray:
         end = min(end, self.shape[0])
         cells = np.full((end - start, self.shape[1]), np.nan, dtype=np.float32)
-        for first, last in self._stored.runs(start, end):
+        for first, last in self.stored.runs(start, end):
             cells[:, first:last] = self.raster.rows(start, end, first, last)
         cells *= self._factor
         return cells
 
 
-def strips_of(cells: Windows) -> Iterator[tuple[int, np.ndarray]]:
-    """Yield the first row of each strip of a raster, and its cells, from north to south."""
-    rows, columns = cells.shape
-    step = max(_CELLS // 2 // max(columns, 1), 1)
-    for start in range(0, rows, step):
-        yield start, cells[start : min(start + step, rows), 0:columns]
+def stored_of(cells: Windows) -> Stored:
+    """Return which parts of a raster are stored: the others have no data."""
+    return cells.stored if isinstance(cells, RasterWindows) else Stored(cells.shape)
+
+
+def parts_of(cells: Windows) -> Iterator[Window]:
+    """Yield the windows of a raster that are stored, from north to south."""
+    stored = stored_of(cells)
+    for start, end in stored.strips(_CELLS // 2):
+        for first, last in stored.runs(start, end):
+            yield slice(start, end), slice(first, last)

@@ -9,7 +9,7 @@ from surveys import ORIGIN, write
 import bare_earth
 from bare_earth.algorithms.core.points import Frame
 from bare_earth.algorithms.core.progress import Progress
-from bare_earth.algorithms.rasters import content, geotiff, writing
+from bare_earth.algorithms.rasters import content, geotiff, windows, writing
 from bare_earth.algorithms.rasters.geotiff import RasterGrid
 from bare_earth.algorithms.rasters.sparse import Part
 from bare_earth.algorithms.rasters.writing import RasterCells, write_geotiff
@@ -118,6 +118,30 @@ def test_contour_lines_of_a_raster_with_empty_land_are_those_of_the_pieces(piece
 
     both, a, b = _of_pieces(pieces, make)
     assert sorted(both) == sorted(a + b) and len(a) > 10
+
+
+@pytest.mark.rest
+def test_places_to_review_of_a_raster_with_empty_land_are_those_of_the_pieces(pieces, monkeypatch):
+    looked, get = [], windows.RasterWindows.__getitem__
+
+    def counted(cells, window):
+        found = get(cells, window)
+        looked.append(found.size)
+        return found
+
+    monkeypatch.setattr(windows.RasterWindows, "__getitem__", counted)
+
+    def make(folder, made):
+        target = folder / "places.geojson"
+        error, dtm = folder / "expected_error.tif", folder / "dtm.tif"
+        bare_earth.review(error, target, dtm=dtm, earlier=dtm, least_error=0.05)
+        features = json.loads(target.read_text("utf-8"))["features"]
+        # Squares of places begin at the first cell of a raster.
+        return sum(place["properties"]["AREA"] for place in features), len(features)
+
+    (area, count), (of_a, many), (of_b, some) = _of_pieces(pieces, make)
+    assert area == pytest.approx(of_a + of_b) and count >= 2 and many and some
+    assert sum(looked) < 30_000_000  # of 180 million in each raster
 
 
 def test_classes_of_pieces_have_cells_as_small_as_those_of_one(tmp_path):

@@ -16,7 +16,7 @@ from ...core.words import counted
 from ...grids.expected_error import ExpectedAccuracy
 from ...rasters.content import NO_CELLS, Source
 from ...rasters.geotiff import Raster, read_raster
-from ...rasters.windows import RasterWindows, Windows, strips_of
+from ...rasters.windows import RasterWindows, Windows, parts_of
 from ...report.units import Units
 from ...survey.area import Polygon
 from ...survey.feature_files import Feature, Layer, feature_writer
@@ -97,7 +97,8 @@ def review(
     units = Units(raster.frame.horizontal_unit, raster.frame.vertical_unit)
     limit = how.limit(rasters.error)
     expected, over = ExpectedAccuracy(), 0
-    for _, error in strips_of(rasters.error):
+    for window in parts_of(rasters.error):
+        error = rasters.error[window]
         expected.add(error)
         over += int(np.count_nonzero(error > limit))
     raster.tell(progress)
@@ -163,7 +164,8 @@ def _rasters(
     if before is not None and terrain is None:
         raise BareEarthError("Give the terrain model too, which is compared with the earlier one.")
     numbers = None if causes is None else RasterWindows(causes)
-    for _, some in () if numbers is None else strips_of(numbers):
+    for window in () if numbers is None else parts_of(numbers):
+        some = numbers[window]
         if ((some < 0) | (some > CAUSES) | (some % 1 > 0)).any():
             raise BareEarthError(
                 f"{cause} holds no causes of an expected error. Give such a raster."

@@ -9,7 +9,7 @@ import numpy as np
 from ...classes.corrections import SKIP, Corrections
 from ...core.words import counted
 from ...rasters.geotiff import Raster
-from ...rasters.windows import Windows, strips_of
+from ...rasters.windows import Windows, parts_of
 from ...survey.area import Area, Polygon
 from ...survey.feature_files import Feature
 from ...survey.vector_files import ANSWER_FIELD, CLASS_FIELD
@@ -122,7 +122,7 @@ def changes_of(
 ) -> list[Change]:
     """Return what changed in all cells, and in each place whose answer changes classes."""
     rises = _Rises(rasters.terrain, before)
-    found = [_change("all cells", "", (strip for _, strip in strips_of(rises)), rasters.cell)]
+    found = [_change("all cells", "", (rises[window] for window in parts_of(before)), rasters.cell)]
     polygons, codes, numbers = corrections.effects
     for polygon, code, number in zip(polygons, codes, numbers):
         rank = corrections.values[number].get("RANK", number + 1)
@@ -136,7 +136,7 @@ class _Rises:
     """By how much the terrain rose, 0 without a value; of no terrain, what was before is lost."""
 
     def __init__(self, terrain: Windows | None, before: Windows) -> None:
-        self._terrain, self._before, self.shape = terrain, before, before.shape
+        self._terrain, self._before = terrain, before
 
     def __getitem__(self, window: tuple[slice, slice]) -> np.ndarray:
         before = self._before[window]

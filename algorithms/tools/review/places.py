@@ -11,7 +11,7 @@ import numpy as np
 from ...core.parameters import ParameterSet, parameter
 from ...grids.isolines import rings_of
 from ...grids.quantile import quantile_of
-from ...rasters.windows import Windows, strips_of
+from ...rasters.windows import Windows, parts_of, stored_of
 from ...report.units import Units
 from .reasons import Figures, reason_of
 
@@ -62,7 +62,7 @@ class Review(ParameterSet):
         """Return what expected errors of places exceed, in metres, given those of all cells."""
         least = self.least_error
         if least is None:
-            usual = quantile_of(lambda: (strip for _, strip in strips_of(error)), _USUAL)
+            usual = quantile_of(lambda: (error[window] for window in parts_of(error)), _USUAL)
             least = max(usual, _LEAST)
         return least * (1.0 + _SAME)  # many cells may have that very value
 
@@ -119,7 +119,8 @@ def _regions(rasters: Rasters, least: float) -> Iterator[tuple[tuple[slice, slic
 
     side = max(math.ceil(_WIDEST / rasters.cell), 1)
     for row in range(0, rasters.error.shape[0], side):
-        for column in range(0, rasters.error.shape[1], side):
+        runs = stored_of(rasters.error).runs(row, row + side)
+        for column in sorted({k for a, b in runs for k in range(a // side * side, b, side)}):
             square = rasters.error[row : row + side, column : column + side]
             with np.errstate(invalid="ignore"):  # NaN is not larger
                 is_over = square > least
