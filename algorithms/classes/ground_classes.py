@@ -83,8 +83,8 @@ class GroundClasses(ParameterSet):
         """Return which points are used, of any class; boolean, shape (n,)."""
         return used(part, self.overlap)
 
-    def check(self, counts: GroundCounts, path: Path) -> None:
-        """Refuse a file without ground."""
+    def check(self, counts: GroundCounts, path: Path | str, has: str = "has") -> None:
+        """Refuse a file without ground, or files, which "have" none."""
         if counts.ground:
             return
         if counts.classes[list(self.ground_classes)].any():
@@ -95,7 +95,7 @@ class GroundClasses(ParameterSet):
         classes = np.flatnonzero(counts.classes)
         present = ("classes " if classes[1:].size else "class ") + ", ".join(map(str, classes))
         raise BareEarthError(
-            f"{path} has no ground points: none is of class {self._wanted}, all are of"
+            f"{path} {has} no ground points: none is of class {self._wanted}, all are of"
             f" {present}. Classify its ground first, or choose other ground classes."
         )
 

@@ -59,7 +59,7 @@ def tell_of_kept(counts: PointCounts, others: Collection[int], progress: Progres
         )
     if unknown.any():
         there = np.flatnonzero(unknown).tolist()
-        progress.info(
+        progress.warning(
             f"{_counted(unknown, there, named=False)} keep their class and do not take part: point"
             f" formats 0 to 5 reserve these classes, so what they mean is not known. {all_too}"
         )

@@ -155,11 +155,15 @@ def warn_of_extent(points: Points, largest: float, name: str, progress: Progress
     ground on two sides; `name` is the label of the parameter for its width.
     """
     if min(points.sides) < largest:
+        rise = float(np.ptp(points.z))
+        is_upright = rise > max(min(points.sides), 0.5 * max(points.sides))
         progress.warning(
             f"In one direction the points reach less than {largest:g} m, the expected width of the"
             " largest object. An object at their border, or one that covers all of them, may be"
             " taken for ground. Add the points around them, or give the width of the largest"
             f" object ({name})."
+            + f" Their heights reach {rise:.0f} m: check whether y is up in the file."
+            * is_upright
         )
 
 

@@ -11,10 +11,11 @@ import struct
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
-from typing import BinaryIO, NamedTuple, Sequence
+from typing import BinaryIO, Iterator, NamedTuple, Sequence
 
 from ..core.errors import BareEarthError
 from ..core.points import Box
+from ..core.progress import Progress
 from . import header as fields
 from .laszip import ChunkHead, Compression
 from .sources import FileState, changed, damage_told, damaged, open_source
@@ -36,6 +37,10 @@ FIRST_EXTENDED_FORMAT = 6
 _WITHOUT_TIMES = (0, 2)
 # Integers of coordinates that are at the limits of 32 bits lie beyond this.
 _INTEGERS = (1 << 31) - 2.5
+_CUT_OFF = (
+    ", the limit of the integers that LAS holds: the program that wrote it cut the coordinates off."
+    " Write it again with an offset near the points, or a larger scale."
+)
 # The integers of points have 32 bits. Slightly larger numbers are allowed, since extents are
 # rounded.
 _MOST_STEPS = (1 << 31) + 16
@@ -237,16 +242,28 @@ class LasFile:
         return next((record for record in records if record.key in key), None)
 
     def check_limits(self) -> None:
-        """Refuse points whose x or y are all cut off at the limit of 32 bits."""
-        for name, low, high, scale, offset in zip(
-            "xy", self.minimum, self.maximum, self.scale, self.offset
+        """Refuse points whose x, y or z are all cut off at the limit of 32 bits."""
+        for name, value, are_all in self._cut_off:
+            if are_all:
+                raise BareEarthError(f"{name} of all points of {self.path} is {value}{_CUT_OFF}")
+
+    def tell_limits(self, progress: Progress) -> None:
+        """Warn of points some of whose coordinates are cut off at the limit of 32 bits."""
+        for name, value, are_all in self._cut_off:
+            if not are_all:
+                progress.warning(f"{name} of some points of {self.path.name} is {value}{_CUT_OFF}")
+
+    @property
+    def _cut_off(self) -> Iterator[tuple[str, str, bool]]:
+        """The axes whose extent in the header ends at the limit of 32 bits, the value there, and
+        whether all points have it.
+        """
+        for axis, low, high, scale, offset in zip(
+            "xyz", self.minimum, self.maximum, self.scale, self.offset
         ):
-            if low == high and abs((low - offset) / scale) > _INTEGERS:
-                raise BareEarthError(
-                    f"{name} of all points of {self.path} is {low:.10g}, the limit of the integers"
-                    " that LAS holds: the program that wrote it cut the coordinates off. Write it"
-                    " again with an offset near the points, or a larger scale."
-                )
+            for value in (low, high) if self.states_extent and scale else ():
+                if abs((value - offset) / scale) > _INTEGERS:
+                    yield axis, f"{value:.10g}", low == high
 
     def check_unchanged(self) -> None:
         """Refuse a file whose size, time, place on the disk, or bytes before the points have

@@ -83,6 +83,7 @@ class Inputs(Tuple[Path, ...]):
             return open_survey(self, progress)
         las = open_las(self[0], self.stated)
         survey = Survey((las,), (), read_crs(las), self.stated)
+        las.tell_limits(progress)
         tell_of_strays(survey.pieces, progress)
         return survey
 
@@ -186,6 +187,8 @@ def open_survey(sources: Sources, progress: Progress = SILENT) -> Survey:
     crs = common_crs(tiles, systems, progress)
     tell_of_twins(tiles, progress)
     survey = Survey(tuple(tiles), tuple(broken), crs, stated, tuple(empty))
+    for tile in tiles:
+        tile.tell_limits(progress)
     tell_of_strays(survey.pieces, progress)
     return survey
 

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from matrices import quick
 from realdata import real
-from runs import Heard, said
+from runs import FAST, Heard, said
 from surveys import heights_of, write_points
 
 from bare_earth import classify, terrain
@@ -62,6 +62,15 @@ def test_roads_on_the_ground_are_terrain_and_those_above_it_are_not(town, tmp_pa
     heights, flyover = np.asarray(after["HeightAboveGround"]), len(before) - 10 * SIDE
     assert (heights[:flyover] == 0.0).all()
     assert (heights[flyover:] > BRIDGE - 0.7).all()
+
+
+def test_reserved_classes_of_many_files_are_told_without_a_meaning(town, tmp_path):
+    las, progress = laspy.read(town / "one.las"), Heard()
+    (tmp_path / "in").mkdir()
+    laspy.convert(las, point_format_id=1).write(tmp_path / "in" / "old.las")
+    classify(tmp_path / "in", tmp_path / "out", **FAST, progress=progress)
+    (told,) = (text for text in progress.warnings + progress.infos if "class 11" in text)
+    assert "reserve these classes" in told and told in progress.warnings
 
 
 @pytest.mark.rest

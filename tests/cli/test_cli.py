@@ -215,6 +215,7 @@ def test_json_is_the_counts_and_nothing_else(file, out, scene, capsys):
         "by_hand_count": 0,
         "overlap_count": 0,
         "input_class_counts": {"1": scene[0].count},
+        "reserved_class_counts": {},
         "class_counts": {"1": int((found == 1).sum()), "2": int((found == 2).sum())},
         "found_ground": True,
         "why_no_ground": "",

@@ -17,6 +17,7 @@ from bare_earth import (
     key_points,
     quality,
     terrain,
+    water,
     water_classes,
 )
 from bare_earth.algorithms.cli import main
@@ -152,6 +153,11 @@ def test_other_tools_write_files_without_ground_and_tell(tool, fate, classified,
     ):
         tool([folder / "t11.laz"], tmp_path / "alone", **more)
     assert not finished(tmp_path / "alone")
+
+
+def test_a_survey_without_any_ground_is_refused_in_the_plural(roof, tmp_path):
+    with pytest.raises(BareEarthError, match=r"^the files have no ground points: none is of"):
+        water(roof, tmp_path / "water.geojson")
 
 
 def test_points_far_from_any_ground_have_no_height_and_are_told(classified, tmp_path):

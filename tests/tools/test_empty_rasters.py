@@ -36,7 +36,16 @@ def test_y_that_is_up_is_told(tmp_path):
     assert code == 0 and "whether y is up" in told
 
 
-@pytest.mark.parametrize("axis", ["X", "Y"])
+def test_an_upright_slab_with_values_is_told(tmp_path):
+    x, z = np.random.default_rng(1).uniform(0, 60, (2, 4_000))
+    y = np.random.default_rng(2).uniform(0, 12, 4_000)
+    told = said("classify", write_points(tmp_path / "in.laz", x, y, z, 1), tmp_path / "o.laz")[2]
+    assert "Their heights reach 60 m: check whether y is up" in told
+    told = said("classify", write_points(tmp_path / "in.laz", x, z, y, 1), tmp_path / "p.laz")[2]
+    assert "y is up" not in told
+
+
+@pytest.mark.parametrize("axis", ["X", "Y", "Z"])
 @pytest.mark.parametrize("value", [-(2**31), 2**31 - 1])
 def test_coordinates_that_were_cut_off_are_refused(tmp_path, axis, value):
     x, y = np.random.default_rng(1).uniform(0, 60, (2, 4_000))
@@ -46,3 +55,17 @@ def test_coordinates_that_were_cut_off_are_refused(tmp_path, axis, value):
     las.write(source)
     code, _, told = said("classify", source, tmp_path / "o.laz", "--dtm", tmp_path / "o.tif")
     assert code == 1 and f"{axis.lower()} of all points of" in told and "limit of the integ" in told
+
+
+@pytest.mark.parametrize("axis", ["Y", "Z"])
+@pytest.mark.parametrize("is_survey", [False, True])
+def test_some_coordinates_that_were_cut_off_are_told(tmp_path, axis, is_survey):
+    x, y = np.random.default_rng(1).uniform(0, 60, (2, 4_000))
+    (tmp_path / "in").mkdir()
+    source = write_points(tmp_path / "in" / "a.laz", x, y, 100 + 0.1 * x, 1)
+    las = laspy.read(source)
+    las[axis][:7] = 2**31 - 1
+    las.write(source)
+    target = tmp_path / ("out" if is_survey else "o.laz")
+    code, _, told = said("classify", source.parent if is_survey else source, target)
+    assert code == 0 and f"{axis.lower()} of some points of a.laz is" in told

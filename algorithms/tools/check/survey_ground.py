@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from pathlib import Path
 from typing import Callable, Iterator, NamedTuple
 
 import numpy as np
@@ -98,7 +97,8 @@ class SurveyGround:
 
     def check(self) -> None:
         """Refuse a survey without ground, after all of its parts were read."""
-        self.ground.check(self.counts, Path(self.place.name))
+        has = "has" if len(self.survey.tiles) == 1 else "have"
+        self.ground.check(self.counts, self.place.name, has)
 
     def _is_near(self, tile: LasFile, places: np.ndarray, reach: float) -> bool:
         west, south, east, north = np.multiply(tile.outer_box, self.frame.horizontal_unit).tolist()

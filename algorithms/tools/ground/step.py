@@ -150,6 +150,8 @@ class LabelGround(PointStep):
         for summary in done:
             for value, count in summary.input_class_counts.items():
                 counts.classes[value] += count
+            for value, count in summary.reserved_class_counts.items():
+                counts.classes[value] -= count  # each file has told of them
         self.selection.tell_of_kept(counts, progress)
         if self.area is not None and not any(summary.area_count for summary in done):
             progress.warning(
@@ -294,6 +296,7 @@ class ClassifiedPoints(PointResult):
             self._by_hand_count,
             counts.overlap,
             by_class(counts.classes),
+            by_class(counts.reserved),
             class_counts,
             self._has_ground,
             "" if self._has_ground else self._why,

@@ -29,6 +29,8 @@ class Summary(TileSummary):
     by_hand_count: int = 0  # in the area, whose class is known by hand
     overlap_count: int = 0
     input_class_counts: dict[int, int] = field(default_factory=dict)
+    # Of these, the points of classes that their point format reserves.
+    reserved_class_counts: dict[int, int] = field(default_factory=dict)
     class_counts: dict[int, int] = field(default_factory=dict)  # in the output, also outside
     found_ground: bool = True  # in the area
     why_no_ground: str = ""  # of one of many files, a sentence if the reason is known
@@ -36,8 +38,9 @@ class Summary(TileSummary):
     def __post_init__(self) -> None:
         super().__post_init__()
         # The keys of the JSON record are strings.
-        counts = {int(value): count for value, count in self.input_class_counts.items()}
-        object.__setattr__(self, "input_class_counts", counts)
+        for name in ("input_class_counts", "reserved_class_counts"):
+            counts = {int(value): count for value, count in vars(self)[name].items()}
+            object.__setattr__(self, name, counts)
 
     @property
     def without_ground(self) -> WithoutGround:
