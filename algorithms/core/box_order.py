@@ -22,6 +22,14 @@ def valid_box(values: Sequence[float]) -> Box | None:
     return next((read for read in (box, _exchanged(box)) if _is_valid(read)), None)
 
 
+def not_a_box(values: Sequence[float]) -> BareEarthError:
+    """Return the error on four numbers that are no rectangle."""
+    return BareEarthError(
+        "The extent must be XMIN YMIN XMAX YMAX, XMIN below XMAX and YMIN below YMAX, not"
+        f" {' '.join(f'{value:.10g}' for value in values)}."
+    )
+
+
 def in_order(box: Box, points: Box, was_given: bool, progress: Progress) -> Box:
     """Return an extent, in the order of QGIS if it lies in the box of points only so; refuse one
     that reaches far beyond the points but would be small in that order.
@@ -29,6 +37,8 @@ def in_order(box: Box, points: Box, was_given: bool, progress: Progress) -> Box:
     other = _exchanged(box)
     if not was_given:  # `valid_box` has exchanged them
         other, box = box, other
+        if not (_is_like(other, points) or _contains(other, points)):
+            raise not_a_box(box)
     elif _is_like(box, points) or not (_is_valid(other) and _is_like(other, points)):
         return box
     elif not _touches(other, points):
@@ -60,6 +70,11 @@ def _is_like(box: Box, points: Box) -> bool:
 
 def _sides(box: Box) -> tuple[float, float]:
     return box[2] - box[0], box[3] - box[1]
+
+
+def _contains(box: Box, points: Box) -> bool:
+    west, south, east, north = points
+    return box[0] <= west and box[1] <= south and box[2] >= east and box[3] >= north
 
 
 def _touches(box: Box, points: Box) -> bool:

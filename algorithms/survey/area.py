@@ -7,7 +7,7 @@ from typing import ClassVar, cast
 
 import numpy as np
 
-from ..core.box_order import in_order, valid_box
+from ..core.box_order import in_order, not_a_box, valid_box
 from ..core.errors import BareEarthError
 from ..core.points import Box
 from ..core.progress import SILENT, Progress
@@ -40,11 +40,7 @@ class Area(Geometry):
         if self.box is not None:
             box = valid_box(self.box)
             if box is None:
-                values = " ".join(f"{value:.10g}" for value in self.box)
-                raise BareEarthError(
-                    "The extent must be XMIN YMIN XMAX YMAX, XMIN below XMAX and YMIN below YMAX,"
-                    f" not {values}."
-                )
+                raise not_a_box(self.box)
             object.__setattr__(self, "was_given", box == tuple(self.box))
             object.__setattr__(self, "box", box)
         if not all(np.isfinite(ring).all() for polygon in self.polygons for ring in polygon):

@@ -71,6 +71,18 @@ def test_an_extent_of_rasters(scene, tmp_path, words):
     assert ("is taken as XMIN XMAX YMIN YMAX" in told) == (words.split()[1] == "500030")
 
 
+def test_a_reversed_extent_is_not_read_in_an_order_that_does_not_fit(scene, tmp_path):
+    words = ["--extent", "500030", "5500010", "500010", "5500030"]
+    code, _, told = said("classify", scene, tmp_path / "o.laz", *words)
+    assert code == 1 and "not 500030 5500010 500010 5500030" in told
+
+
+def test_a_window_to_compare_settings_in_the_order_of_qgis(scene, tmp_path):
+    words = ["--extent", "500010", "500030", "5500020", "5500050"]
+    code, _, told = said("compare-settings", scene, tmp_path / "o.html", *words)
+    assert code == 0 and "is taken as XMIN XMAX YMIN YMAX" in told
+
+
 def test_an_extent_that_fits_in_no_order_is_refused(scene, tmp_path):
     with pytest.raises(
         BareEarthError, match="reaches far beyond the points, and in the order XMIN"

@@ -154,6 +154,8 @@ def read_points(inputs: Inputs, box: Box | None, context: float, progress: Progr
     survey = open_survey(inputs, progress.part(0.0, 0.1))
     files, crs, extent = survey.tiles, survey.crs, survey.box
     require_measurable("The survey", crs, extent)
+    if area is not None:
+        area = area.located(survey.place, progress)
     wanted, unit = area, crs.horizontal_unit
     area = area or Area(_middle_window(files, unit))
     reading = progress.quiet()  # opening the files has given their messages
