@@ -137,6 +137,11 @@ def _check_local(source: str) -> None:
         with open(path, "rb") as file:
             # Rasters are binary; descriptions of rasters for GDAL are XML or JSON.
             start = file.read(_DESCRIPTION)
+        if start.startswith(b"LASF"):
+            raise BareEarthError(
+                f"{source} is a point cloud, and this reads a raster. Make a terrain model of the"
+                " points first."
+            )
         text = start.decode("utf-8", "replace")
         is_description = text.lstrip("\ufeff \t\r\n")[:1] in ("<", "{")
         is_remote = is_description and _REMOTE.search(text) is not None

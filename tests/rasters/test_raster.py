@@ -201,3 +201,10 @@ def test_statistics_of_the_raster_before_are_removed(tmp_path):
     values = np.zeros((grid.rows, grid.columns), np.float32)
     write_geotiff(target, values, grid, NODATA, Progress(), "Height")
     assert target.exists() and not statistics.exists()
+
+
+def test_a_point_cloud_is_no_raster(tmp_path):
+    cloud = tmp_path / "points.laz"
+    cloud.write_bytes(b"LASF" + bytes(400))
+    with pytest.raises(BareEarthError, match=r"points\.laz is a point cloud, and this reads"):
+        read_raster(cloud)
