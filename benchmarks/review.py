@@ -73,16 +73,18 @@ class Land(NamedTuple):
         if not len(known) or np.quantile(np.abs(known), 0.95) <= _RIGHT:
             return "right"
         is_high = (np.maximum(known, 0) ** 2).sum() > (np.minimum(known, 0) ** 2).sum()
-        changed = inside & ground
-        if not is_high:
-            changed = continued_ground(self.points, ground, inside) & ~ground
-        x, y, z = self.points.take(changed)
-        if not len(z):
-            return "skip"
-        is_true = np.abs(z - self.terrain(x, y)) <= _RIGHT
+        # Ground that is no ground is seen in the profile, above the land or below it.
+        if self._true_share(inside & ground) < 1 - _MOSTLY:
+            return "not ground"
         if is_high:
-            return "not ground" if is_true.mean() < 1 - _MOSTLY else "skip"
-        return "ground" if is_true.mean() > _MOSTLY else "skip"
+            return "skip"
+        new = continued_ground(self.points, ground, inside) & ~ground
+        return "ground" if self._true_share(new) > _MOSTLY else "skip"
+
+    def _true_share(self, chosen: np.ndarray) -> float:
+        """Return the share of some points that lie on the land; NaN without any."""
+        x, y, z = self.points.take(chosen)
+        return float(np.mean(np.abs(z - self.terrain(x, y)) <= _RIGHT)) if len(z) else np.nan
 
 
 def rmse(error: np.ndarray) -> float:

@@ -164,8 +164,8 @@ def _rasters(
     if before is not None and terrain is None:
         raise BareEarthError("Give the terrain model too, which is compared with the earlier one.")
     numbers = None if causes is None else RasterWindows(causes)
-    for window in () if numbers is None else parts_of(numbers):
-        some = numbers[window]
+    checked = () if numbers is None else (numbers[window] for window in parts_of(numbers))
+    for some in checked:
         if ((some < 0) | (some > CAUSES) | (some % 1 > 0)).any():
             raise BareEarthError(
                 f"{cause} holds no causes of an expected error. Give such a raster."
