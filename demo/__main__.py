@@ -53,10 +53,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
     cloud, truth, northing = options.cloud, options.truth, None
     assessing = AssessmentOptions()
     if options.land is not None:
-        cloud, truth = _OUTPUT / f"{options.land}.laz", LANDS[options.land].path
-        count = write_unclassified(truth, cloud)
+        cloud, truth = _OUTPUT / f"{options.land}.laz", _OUTPUT / "truth.laz"
+        count = write_unclassified(shutil.copy(LANDS[options.land].path, truth), cloud)
         assessing = AssessmentOptions(ignored_classes=LANDS[options.land].unlabelled)
-        print(f"{LANDS[options.land].title}, {count:,} points: {cloud} (with its classes: {truth})")
+        print(f"{LANDS[options.land].title}, {count:,} points: {cloud} (true classes: {truth})")
     elif cloud is None:
         cloud, truth = _OUTPUT / "scene.laz", _OUTPUT / "truth.laz"
         count = write_scene(cloud, truth, checkpoints=_OUTPUT / "checkpoints.csv")
