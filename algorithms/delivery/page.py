@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from datetime import date
 from pathlib import Path
-from typing import Collection, Iterator, Mapping, Sequence
+from typing import Collection, Iterator, Sequence
 from urllib.parse import quote
 
 from ..classes.selection import Selection
@@ -28,7 +28,6 @@ from ..report.page import (
 )
 from ..report.units import Units
 from ..tools.above_ground.classes import ThenAboveGround
-from ..tools.check.accuracy import Figures
 from ..tools.contours import Contours
 from ..tools.quality import QualityOptions
 from ..tools.quality.figures import FAILED
@@ -122,40 +121,18 @@ def _figures(summary: DeliverySummary) -> Iterator[tuple[str, str]]:
 
 def _accuracy(summary: DeliverySummary, void_distance: float) -> Iterator[tuple[str, str]]:
     check = summary.check
-    measured = {} if check is None else {
-        "Checkpoints, without vegetation (NVA)": check.nva,
-        "Checkpoints, with vegetation (VVA)": check.vva,
-        "Checkpoints, terrain model (NVA)": check.dtm_nva,
-    }  # fmt: skip
-    yield from _known(measured)
-    if not any(measured.values()):
+    if check is None or not (check.nva or check.vva):
         yield "Accuracy of the terrain", "Not measured: no checkpoints are given."
     if check is None:
         return
-    for not_counted in check.left_out:
-        yield "Checkpoints that are not counted", not_counted
-    if check.verdict:
-        yield "Verdict", check.verdict
-    if check.statement and not check.doubt:
-        yield "Statement", check.statement
-    if check.expected is not None:
-        yield "Errors at checkpoints, and the expected error", check.expected.text
-    left = check.hold_out
-    if left is not None:
-        yield from _known(
-            {
-                "Ground points held out": left.all,
-                "Held out, open land": left.open,
-                "Held out, under trees": left.under_trees,
-                "Held out, steep": left.steep,
-            }
+    yield from ((fact.title, fact.text) for fact in check.facts)
+    voids = None if summary.quality is None else summary.quality.ground_void_share
+    if check.hold_out is not None and voids:
+        yield (
+            "Interpolated, not measured",
+            f"{100.0 * voids:.1f} % of the area is farther than {void_distance:g} m from a ground"
+            " point.",
         )
-        voids = None if summary.quality is None else summary.quality.ground_void_share
-        yield "What held-out points tell", left.limits(voids, void_distance)
-
-
-def _known(figures: Mapping[str, Figures | None]) -> Iterator[tuple[str, str]]:
-    return ((name, found.text) for name, found in figures.items() if found is not None)
 
 
 def _comparison(summary: DeliverySummary) -> list[Html]:

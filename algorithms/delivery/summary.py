@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import asdict, dataclass, field, is_dataclass
 
-from ..tools.check.hold_out import AGREEMENT
 from ..tools.check.results import Check
 from ..tools.contours import Interval
 from ..tools.quality.figures import Quality
@@ -12,6 +11,11 @@ from ..tools.review import ReviewSummary
 from ..tools.water.tool import WaterSummary
 
 _NO_CHECKPOINTS = "accuracy", "not measured: no checkpoints are given"
+# The facts on accuracy that matter most, by their names.
+_MAIN = (
+    "look at this", "checkpoints", "not counted", "points NVA", "points VVA", "verdict",
+    "held out, all", "what this tells",
+)  # fmt: skip
 
 
 @dataclass
@@ -71,19 +75,11 @@ class DeliverySummary:
         if check is None:
             return [_NO_CHECKPOINTS]
         rows = [] if check.nva or check.vva else [_NO_CHECKPOINTS]
-        for name, figures in (("checkpoints", check.nva), ("vegetated", check.vva)):
-            if figures is not None:
-                rows.append((name, figures.text))
-        rows += [("not counted", left) for left in check.left_out]
-        if check.verdict:
-            rows.append(("verdict", check.verdict))
-        if check.hold_out is not None and check.hold_out.all is not None:
-            rows.append(("held out", f"{check.hold_out.all.text}; {AGREEMENT}"))
-        return rows
+        return rows + [(fact.name, fact.text) for fact in check.facts if fact.name in _MAIN]
 
     def lines(self) -> list[str]:
         """Return the figures as lines of text."""
-        return [f"{title:<11} {value}" for title, value in self.rows()]
+        return [f"{title:<15} {value}" for title, value in self.rows()]
 
     def as_dict(self) -> dict[str, object]:
         """Return all figures as plain values."""

@@ -16,7 +16,7 @@ from ..las.cloud import PointCloud
 from ..survey.pieces import pieces_of
 from ..tools import file_tool
 from ..tools.check.accuracy import Accuracy
-from ..tools.check.checking import CheckOptions, check_points
+from ..tools.check.checking import CheckInputs, CheckOptions, check_points
 from ..tools.check.residuals import layer_of, residuals_of
 from ..tools.check.results import Check
 from ..tools.check.survey_ground import SurveyGround
@@ -68,17 +68,12 @@ def _ground_points(values: SimpleNamespace, sets: Sequence[ParameterSet]) -> _Cl
 
 def _check(values: SimpleNamespace, sets: Sequence[ParameterSet]) -> Check:
     """Return the errors at checkpoints, or at held-out points."""
-    progress, ground = progress_of(values.progress), GroundClasses.among(sets)
     with may_use(available_cpus()):
-        return check_points(
-            _ground_points(values, sets),
-            checkpoints_of(values),
-            vegetated=values.vegetated,
-            accuracy=Accuracy.among(sets),
-            options=CheckOptions.among(sets),
-            ground=ground,
-            progress=progress,
-        )
+        inputs = CheckInputs(
+            Accuracy.among(sets), CheckOptions.among(sets), GroundClasses.among(sets),
+            _ground_points(values, sets), checkpoints_of(values), vegetated=values.vegetated,
+        )  # fmt: skip
+        return check_points(inputs, progress_of(values.progress))
 
 
 _VEGETATED = Argument.of(

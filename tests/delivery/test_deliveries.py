@@ -676,16 +676,17 @@ def test_the_command_prints_what_matters(made, scene, tmp_path, capsys):
     assert main(["deliver", "survey", str(scene[1]), str(target)]) == 0
     first, *rows = capsys.readouterr().out.splitlines()
     assert first.startswith(f"{target}: {summary.ground_count:,} of {summary.point_count:,} points")
-    told = {row[:11].rstrip(): row[12:] for row in rows}
-    titles = ["classes", "water", "accuracy", "held out", "comparisons", "expected", "cell size"]
-    titles.append("page")
+    told = {row[:15].rstrip(): row[16:] for row in rows}
+    titles = [
+        "classes", "water", "accuracy", "held out, all", "what this tells", "comparisons",
+        "expected", "cell size", "page",
+    ]  # fmt: skip
     assert re.search(r"expected RMSE of the terrain model is \d+\.\d\d m", told["expected"])
     assert list(told) == titles and told["accuracy"].startswith("not measured")
     counts = (f"{value}: {count:,}" for value, count in summary.class_counts.items())
     assert told["classes"] == ", ".join(counts) and told["cell size"] == "1 m"
-    figures, _, limits = told["held out"].partition("; ")
-    assert figures == summary.check.hold_out.all.text and told["water"]
-    assert "not how right the terrain is" in limits
+    assert told["held out, all"] == summary.check.hold_out.all.text and told["water"]
+    assert told["what this tells"] == summary.check.hold_out.limits()
     page = (target / "index.html").read_text(encoding="utf-8")
     assert "Accuracy of the terrain" in page and "What held-out points tell" in page
     share = summary.quality.ground_void_share

@@ -2,7 +2,6 @@
 
 import csv
 import json
-import re
 
 import numpy as np
 import pytest
@@ -105,7 +104,7 @@ def test_checkpoints_that_are_off_by_known_amounts(survey):
     assert done.shift == -done.nva.mean and done.meets_class is True
     forest = {name for name, cover in zip(names, covers) if cover == "Forest"}
     assert {value["name"] for value in done.largest[: len(forest)]} == forest
-    assert "a shift of -0.0" in "\n".join(done.lines())
+    assert f"{done.shift:+.3f} m" in "\n".join(done.lines())
 
 
 def test_checkpoints_outside_and_in_voids_are_named_and_not_counted(survey):
@@ -158,7 +157,7 @@ def test_held_out_points_are_the_same_in_each_run_and_tell_the_noise(tmp_path):
     assert one == other
     assert one.left_out == pytest.approx(1500, rel=0.1)
     assert one.all.count + one.no_height == one.left_out and one.no_height < 15
-    assert not one.single and "objects and dense plants that were taken for ground" in one.limits()
+    assert not one.single and "dense plants" in one.limits()
     # The noise of the point, and the mean of three weights: 1 + 1/2 times the variance or less.
     assert 0.05 < one.open.rmse < 0.07
     # Along the edge at y = 30 the slope changes.
@@ -169,8 +168,7 @@ def test_held_out_points_are_the_same_in_each_run_and_tell_the_noise(tmp_path):
 def test_held_out_points_of_single_returns_and_of_a_terrain_with_gaps_say_so(tmp_path):
     path = write(tmp_path / "in.laz", *cloud())
     left = check([path], None, CheckOptions(hold_out=0.05)).hold_out
-    assert left.single and "below plants nothing was measured" in left.limits()
-    assert "12.3 % of the area is farther than 3 m from a ground point" in left.limits(0.123, 3.0)
+    assert left.single and "No pulse has several returns" in left.limits()
 
 
 def test_more_held_out_points_than_are_measured(survey, monkeypatch):
@@ -188,7 +186,7 @@ def test_a_terrain_model(survey, tmp_path):
     done = check([survey], points(xy, 0.1), dtm=str(dtm))
     assert done.dtm_nva.count == 60
     assert done.dtm_nva.mean == pytest.approx(0.1, abs=0.01)
-    assert "Terrain model: " in "\n".join(done.lines())
+    assert any(fact.name == "DTM statement" for fact in done.facts)
 
 
 @pytest.mark.rest
@@ -448,7 +446,7 @@ def test_the_command_writes_page_table_and_layer(survey, tmp_path, capsys):
     assert len(last["geometry"]["coordinates"]) == 3
     assert main(words) == 0
     said = capsys.readouterr().out
-    assert "tested to meet" in said and re.search(r"under trees +\d", said) is None
+    assert "tested to meet" in said and "under trees" not in said
 
 
 @pytest.mark.parametrize("suffix", [".gpkg", ".shp", ".fgb"])

@@ -61,16 +61,11 @@ class Figures:
 
     @property
     def text(self) -> str:
-        """The figures that matter most, in words."""
-        return f"RMSE {self.total_rmse:.3f} m, mean {self.mean:+.3f} m, of {self.count:,}"
-
-    @property
-    def line(self) -> str:
-        """All figures, for a terminal."""
+        """All figures in words."""
         return (
-            f"{self.count:>6,} RMSE {self.total_rmse:.3f} m, mean {self.mean:+.3f},"
-            f" median {self.median:+.3f}, standard deviation {self.standard_deviation:.3f},"
-            f" {self.minimum:+.3f} to {self.maximum:+.3f}, 95 % within {self.percentile_95:.3f} m"
+            f"RMSE {self.total_rmse:.3f} m, mean {self.mean:+.3f} m, of {self.count:,} (median"
+            f" {self.median:+.3f}, standard deviation {self.standard_deviation:.3f},"
+            f" {self.minimum:+.3f} to {self.maximum:+.3f}, 95 % within {self.percentile_95:.3f} m)"
         )
 
     @classmethod

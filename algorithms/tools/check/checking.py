@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import Mapping, Sequence
+from typing import Any, Mapping, Sequence
 
 import numpy as np
 
@@ -64,56 +64,74 @@ class CheckOptions(ParameterSet):
     )
 
 
-def check_points(
-    sources: Inputs | SurveyGround,
-    checkpoints: Checkpoints | None = None,
-    dtm: str | None = None,
-    vegetated: Sequence[str] | None = None,  # words of land covers; none: those that are known
-    expected_error: str | None = None,
-    low_confidence: Sequence[Polygon] | None = None,
-    report: Path | None = None,
-    table: Path | None = None,
-    residuals: Path | None = None,
+@dataclass(frozen=True)
+class CheckInputs:
+    """What is compared, how, and what is written of it."""
+
+    accuracy: Accuracy
+    options: CheckOptions
+    ground: GroundClasses
+    sources: Inputs | SurveyGround
+    checkpoints: Checkpoints | None = None
+    dtm: str | None = None
+    vegetated: Sequence[str] | None = None  # words of land covers; None: the known words
+    expected_error: str | None = None
+    low_confidence: Sequence[Polygon] | None = None
+    report: Path | None = None
+    table: Path | None = None
+    residuals: Path | None = None
+
+    def validate(self) -> None:
+        """Refuse to compare nothing, and a table or a layer without checkpoints."""
+        if self.checkpoints is None and self.options.hold_out is None:
+            raise BareEarthError(_nothing_to_compare())
+        if self.checkpoints is None and (self.table or self.residuals):
+            raise BareEarthError(
+                "Points that are held out have no table and no layer, only a page. Give"
+                " checkpoints."
+            )
+
+
+def check_points(inputs: CheckInputs, progress: Progress = SILENT) -> Check:
+    """Compare the ground points of classified files, and a terrain model, with checkpoints or with
+    held-out points, and write page, table and layer.
+    """
+    inputs.validate()
+    points, share = inputs.sources, inputs.options.hold_out
+    if not isinstance(points, SurveyGround):
+        points = SurveyGround.of(points, inputs.ground, progress.part(0.0, 0.05))
+    middle, errors, held_out = 0.95 if share is None else 0.5, None, None
+    if inputs.checkpoints is not None:
+        errors = residuals_of(
+            points, inputs.checkpoints, (inputs.dtm, inputs.expected_error),
+            inputs.low_confidence or (), tuple(inputs.vegetated or ()), inputs.options.max_edge,
+            progress.part(0.05, middle),
+        )  # fmt: skip
+    if share is not None:
+        part = progress.part(0.05 if inputs.checkpoints is None else middle, 0.95)
+        held_out = hold_out(points, share, inputs.options.max_edge, part)
+    check = _check_of(errors, inputs.accuracy, held_out)
+    if check.doubt:
+        progress.warning(f"{check.doubt} {NOT_STATED}")
+    if inputs.residuals and errors is not None:
+        layer, features = layer_of(errors, points.survey.crs)
+        feature_writer(inputs.residuals)(inputs.residuals, features, layer, progress)
+    if inputs.table and errors is not None:
+        write_table(inputs.table, errors)
+    if inputs.report:
+        html = checkpoint_html(check, errors, points.survey)
+        inputs.report.write_text(html, encoding="utf-8")
+    return check
+
+
+def _work(
     accuracy: Accuracy = Accuracy(),
     options: CheckOptions = CheckOptions(),
     ground: GroundClasses = GroundClasses(),
     progress: Progress = SILENT,
+    **given: Any,
 ) -> Check:
-    """Compare the ground points of classified files, and a terrain model, with checkpoints or with
-    held-out points, and write page, table and layer.
-    """
-    share = options.hold_out
-    if checkpoints is None and share is None:
-        raise BareEarthError(_nothing_to_compare())
-    if checkpoints is None and (table or residuals):
-        raise BareEarthError(
-            "Points that are held out have no table and no layer, only a page. Give checkpoints."
-        )
-    if isinstance(sources, SurveyGround):
-        points = sources
-    else:
-        points = SurveyGround.of(sources, ground, progress.part(0.0, 0.05))
-    middle, errors, held_out = 0.95 if share is None else 0.5, None, None
-    if checkpoints is not None:
-        errors = residuals_of(
-            points, checkpoints, (dtm, expected_error), low_confidence or (),
-            tuple(vegetated or ()), options.max_edge,
-            progress.part(0.05, middle),
-        )  # fmt: skip
-    if share is not None:
-        part = progress.part(0.05 if checkpoints is None else middle, 0.95)
-        held_out = hold_out(points, share, options.max_edge, part)
-    check = _check_of(errors, accuracy, held_out)
-    if check.doubt:
-        progress.warning(f"{check.doubt} {NOT_STATED}")
-    if residuals and errors is not None:
-        layer, features = layer_of(errors, points.survey.crs)
-        feature_writer(residuals)(residuals, features, layer, progress)
-    if table and errors is not None:
-        write_table(table, errors)
-    if report:
-        report.write_text(checkpoint_html(check, errors, points.survey), encoding="utf-8")
-    return check
+    return check_points(CheckInputs(accuracy, options, ground, **given), progress)
 
 
 def _check_of(found: Residuals | None, accuracy: Accuracy, held_out: HoldOut | None) -> Check:
@@ -188,7 +206,7 @@ def _nothing_to_compare() -> str:
 
 
 TOOL = FileTool(
-    work=check_points,
+    work=_work,
     sets=(Accuracy, CheckOptions, GroundClasses),
     titles=("Accuracy", "What is compared", "Ground points"),
     shown=("accuracy_class",),
@@ -223,8 +241,8 @@ TOOL = FileTool(
         Input(
             "expected_error",
             "raster",
-            help="The expected error of the terrain model, as `terrain()` makes it. It is told how"
-            " many errors at checkpoints it holds, and by which factor it would hold 95 %.",
+            help="The expected error of the terrain model, as `terrain()` makes it. Reports how"
+            " many errors at checkpoints fall within it, and the factor with which 95 % would.",
             label="Expected error",
             optional=True,
             advanced=True,

@@ -14,11 +14,6 @@ from .survey_ground import SurveyGround
 MOST = 10_000
 # Side in metres of the cells by which points are left out: all points of a place, or none.
 _CELL = 0.01
-# The meaning of the errors, for pages and logs.
-AGREEMENT = (
-    "how well ground points agree with each other, not how right the terrain is: objects and dense"
-    " plants that were taken for ground do not show"
-)
 _STEEP = 20.0
 # Numbers that mix the bits of the coordinates (Steele, Lea & Flood 2014, SplitMix64).
 _MIX = tuple(
@@ -39,22 +34,17 @@ class HoldOut:
     steep: Figures | None  # where the slope is more than 20 degrees
     single: bool = False  # whether all left-out points are of pulses with a single return
 
-    def limits(self, void_share: float | None = None, distance: float = 0.0) -> str:
-        """Return sentences on the limits of the errors, such as the share of the area farther than
-        `distance` metres from a ground point.
-        """
-        sentences = [f"This tells {AGREEMENT}."]
-        if void_share:
-            sentences.append(
-                f"{100.0 * void_share:.1f} % of the area is farther than {distance:g} m from a"
-                " ground point: the terrain is interpolated there, and not measured."
-            )
-        if self.single:
-            sentences.append(
-                "No pulse has several returns, as in clouds of images: below plants nothing was"
-                " measured."
-            )
-        return " ".join(sentences)
+    def limits(self) -> str:
+        """Return sentences on what the errors do not show."""
+        single = (
+            " No pulse has several returns, as in clouds of images: below plants nothing was"
+            " measured."
+        )
+        return (
+            "How well ground points agree with each other, not how right the terrain is: objects"
+            " and dense plants that were taken for ground do not show, nor does an error in height"
+            f" that all points share.{single if self.single else ''}"
+        )
 
 
 def hold_out(

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Sequence
+
 import numpy as np
 
 from ...report.page import (
@@ -10,7 +12,6 @@ from ...report.page import (
     Html,
     Mark,
     bars,
-    element,
     keys,
     map_of_places,
     page,
@@ -19,81 +20,55 @@ from ...report.page import (
     table,
 )
 from ...survey.files import Survey
-from .accuracy import Figures
-from .hold_out import HoldOut
 from .residuals import Residuals
-from .results import COLOURS, COUNTED, NOT_COUNTED, REASONS, Check, limits_of
+from .results import COLOURS, COUNTED, NOT_COUNTED, REASONS, Check, Fact, limits_of
 
 _BARS = 15
 _MOST_ROWS = 1000
-_STYLE = f"""
-{DRAWN}blockquote {{ margin: 1em 0; padding: .4em 1em; border-left: 4px solid #888;
-  background: #f6f6f6; }}
-{DOUBT}"""
+_STYLE = f"{DRAWN}{DOUBT}"
 
 
 def checkpoint_html(check: Check, found: Residuals | None, survey: Survey) -> str:
     """Return the page of a comparison; `found` are the errors at checkpoints, if there are any."""
     files = [tile.path for tile in survey.tiles]
     more = f" and {len(files) - 1:,} more" if files[1:] else ""
-    parts = [paragraph(f"Points: {files[0].name}{more}", kind="files")]
+    facts = [fact for fact in check.facts if fact.errors is None and fact.text != check.doubt]
+    parts = [
+        paragraph(f"Points: {files[0].name}{more}", kind="files"),
+        paragraph(check.doubt, kind="doubt"),
+        table([(fact.title, fact.text) for fact in facts], is_named=True),
+        _figures(check.facts),
+    ]
     if found is not None:
-        parts += [*_summary(check), _histogram(check, found), _map(check, found, survey)]
-        parts += [_unknown(check), _not_counted(check), _largest(check), _table(found, survey)]
-    if check.hold_out is not None:
-        parts.append(_held_out(check.hold_out))
+        parts += [_histogram(check, found), _map(check, found, survey), _unknown(check)]
+        parts.append(_table(found, survey))
     return page("Check against checkpoints", parts, _STYLE)
 
 
-def _summary(check: Check) -> list[Html]:
-    rows = {
-        "Ground points, without vegetation (NVA)": check.nva,
-        "Ground points, with vegetation (VVA)": check.vva,
-        "Terrain model, without vegetation (NVA)": check.dtm_nva,
-        "Terrain model, with vegetation (VVA)": check.dtm_vva,
-        "Ground points, in low confidence areas": check.low_confidence,
-        "Terrain model, in low confidence areas": check.dtm_low_confidence,
-    }
-    count = 0 if check.nva is None else check.nva.count
-    shift = "" if check.shift is None else f"{check.shift:+.3f} m"
-    return [
-        paragraph(check.doubt, kind="doubt"),
-        paragraph(
-            f"{check.counted:,} of {check.checkpoint_count:,} checkpoints are counted, {count:,} of"
-            " them on land without vegetation.",
-            f"The standard asks for at least {check.needed} of these.",
-            "" if check.doubt else check.verdict,
-            shift
-            and f"The mean difference would be removed by a shift of {shift}. Nothing was shifted.",
-            "" if check.expected is None else check.expected.text,
-        ),
-        *(element("blockquote", words) for words in check.statements),
-        section(
-            "Figures",
-            _figures(rows),
-            paragraph(
-                "Height of the data minus height of the checkpoint, in metres. RMSE is that of the"
-                " differences; the total adds the error of the survey of the checkpoints."
-            ),
-        ),
-    ]
-
-
-def _figures(rows: dict[str, Figures | None]) -> Html:
+def _figures(facts: Sequence[Fact]) -> Html:
     head = (
         "", "Count", "RMSE", "Total", "Mean", "Median", "Standard deviation", "Lowest", "Highest",
         "95 % within",
     )  # fmt: skip
     values = (
         (
-            name, f"{one.count:,}", f"{one.rmse:.3f}", f"{one.total_rmse:.3f}", f"{one.mean:+.3f}",
-            f"{one.median:+.3f}", f"{one.standard_deviation:.3f}", f"{one.minimum:+.3f}",
-            f"{one.maximum:+.3f}", f"{one.percentile_95:.3f}",
+            fact.title, f"{one.count:,}", f"{one.rmse:.3f}", f"{one.total_rmse:.3f}",
+            f"{one.mean:+.3f}", f"{one.median:+.3f}", f"{one.standard_deviation:.3f}",
+            f"{one.minimum:+.3f}", f"{one.maximum:+.3f}", f"{one.percentile_95:.3f}",
         )
-        for name, one in rows.items()
-        if one is not None
+        for fact in facts
+        if (one := fact.errors) is not None
     )  # fmt: skip
-    return table(values, head, "lrrrrrrrrr", is_named=True)
+    return section(
+        "Figures",
+        table(values, head, "lrrrrrrrrr", is_named=True),
+        paragraph(
+            "Height of the data minus height of the point, in metres. RMSE is that of the"
+            " differences; the total adds the error of the survey of the checkpoints. Ground points"
+            " that were held out are compared with the TIN of the others; steep is more than 20"
+            " degrees."
+        ),
+    )
 
 
 def _colour(error: float, scale: float) -> str:
@@ -145,19 +120,6 @@ def _unknown(check: Check) -> Html:
     return section("Land covers that are not known", told, columns)
 
 
-def _not_counted(check: Check) -> Html:
-    rows = [
-        (REASONS[reason], f"{len(names):,}", ", ".join(names[:_MOST_ROWS]))
-        for reason, names in (check.not_counted or {}).items()
-    ]
-    return section("Not counted", table(rows, ("Why", "Count", "Checkpoints"), "lrl"))
-
-
-def _largest(check: Check) -> Html:
-    worst = [f"{one['name']} ({one['error']:+.3f} m)" for one in check.largest or ()]
-    return section("Largest differences", element("p", ", ".join(worst)))
-
-
 def _table(found: Residuals, survey: Survey) -> Html:
     has_dtm = bool(np.isfinite(found.dtm).any())
     columns = [found.ground, found.errors, found.dtm, found.dtm_errors][: 4 if has_dtm else 2]
@@ -183,24 +145,4 @@ def _table(found: Residuals, survey: Survey) -> Html:
             f"x, y and heights are in the units of the CRS: {survey.crs.name or 'not stated'}."
         ),
         paragraph(f"{more:,} more are in the table that can be written." if more else ""),
-    )
-
-
-def _held_out(left: HoldOut) -> Html:
-    rows = {
-        "All": left.all, "Open land": left.open, "Under trees": left.under_trees,
-        "Steeper than 20 degrees": left.steep,
-    }  # fmt: skip
-    return section(
-        "Ground points that were held out",
-        paragraph(
-            f"{left.left_out:,} ground points ({100 * left.share:g} %) were left out of the TIN;"
-            f" {left.no_height:,} of those that were looked at lie in voids of the others."
-        ),
-        _figures(rows),
-        paragraph(
-            "TIN of the other ground points minus the point, in metres.",
-            left.limits(),
-            "If all points lie 10 cm too high, it does not show either.",
-        ),
     )

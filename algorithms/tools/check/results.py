@@ -1,14 +1,14 @@
-"""The results of a comparison with checkpoints."""
+"""The results of a comparison with checkpoints, worded once for terminal, pages and deliveries."""
 
 from __future__ import annotations
 
 from dataclasses import asdict, dataclass
-from typing import Any, Sequence
+from typing import Any, Iterator, NamedTuple, Sequence
 
 import numpy as np
 
 from .accuracy import NEEDED, Figures
-from .hold_out import AGREEMENT, HoldOut
+from .hold_out import HoldOut
 
 COUNTED = "counted"
 # The standard asks for separate figures in low confidence areas.
@@ -36,10 +36,34 @@ REASONS = {
     REPEATED: "listed again (each point counts once)",
     SEVERAL_HEIGHTS: "listed with several heights",
 }
-
-
 # Fewest checkpoints for a factor of the expected error: 95 % of fewer is too uncertain.
 _ENOUGH = 30
+
+
+class Fact(NamedTuple):
+    """A line of the result as users see it."""
+
+    name: str  # in the terminal
+    title: str  # on pages
+    text: str
+    errors: Figures | None = None  # of which the text tells
+
+
+# The figures of a `Check` and of its `HoldOut`, by attribute: their names and titles.
+_ERRORS = {
+    "nva": ("points NVA", "Ground points, without vegetation (NVA)"),
+    "vva": ("points VVA", "Ground points, with vegetation (VVA)"),
+    "dtm_nva": ("DTM NVA", "Terrain model, without vegetation (NVA)"),
+    "dtm_vva": ("DTM VVA", "Terrain model, with vegetation (VVA)"),
+    "low_confidence": ("low confidence", "Ground points, in low confidence areas"),
+    "dtm_low_confidence": ("DTM low conf.", "Terrain model, in low confidence areas"),
+}
+_HELD_OUT = {
+    "all": ("held out, all", "Ground points held out"),
+    "open": ("open land", "Held out, open land"),
+    "under_trees": ("under trees", "Held out, under trees"),
+    "steep": ("steep", "Held out, steep"),
+}
 
 
 @dataclass(frozen=True)
@@ -137,56 +161,65 @@ class Check:
         """Return all figures for JSON."""
         return asdict(self)
 
-    def lines(self) -> list[str]:
-        """Return the figures as lines of text for a terminal or a log."""
-        rows = [f"look at this      {self.doubt}"] if self.doubt else []
-        if self.checkpoint_count:
-            rows.append(
-                f"checkpoints       {self.counted:>6,} of {self.checkpoint_count:,} counted"
-            )
-        for left in self.left_out:
-            count, _, why = left.partition(" ")
-            rows.append(f"not counted       {count:>6} {why}")
-        named = {
-            "points NVA": self.nva, "points VVA": self.vva,
-            "DTM NVA": self.dtm_nva, "DTM VVA": self.dtm_vva,
-            "low confidence": self.low_confidence, "DTM low conf.": self.dtm_low_confidence,
-        }  # fmt: skip
-        held_out = self.hold_out
-        if held_out is not None:
-            rows.append(
-                f"held out          {held_out.left_out:>6,} ground points,"
-                f" {held_out.no_height:,} in voids"
-            )
-            rows.append(f"what this tells   {AGREEMENT}")
-            named |= {
-                "held out, all": held_out.all, "open land": held_out.open,
-                "under trees": held_out.under_trees, "steep": held_out.steep,
-            }  # fmt: skip
-        rows += [f"{name:<17} {figures.line}" for name, figures in named.items() if figures]
+    @property
+    def facts(self) -> list[Fact]:
+        """The result, line by line."""
+        return [*self._at_checkpoints(), *self._held_out()]
+
+    def _at_checkpoints(self) -> Iterator[Fact]:
+        if not self.checkpoint_count:
+            return
+        if self.doubt:
+            yield Fact("look at this", "Look at this", self.doubt)
+        bare = 0 if self.nva is None else self.nva.count
+        yield Fact(
+            "checkpoints",
+            "Checkpoints",
+            f"{self.counted:,} of {self.checkpoint_count:,} are counted, {bare:,} of them without"
+            f" vegetation; the standard asks for {self.needed}",
+        )
+        for reason, names in (self.not_counted or {}).items():
+            text = f"{len(names):,} {REASONS[reason]}: {listed(names)}"
+            yield Fact("not counted", "Checkpoints that are not counted", text)
+        yield from _errors(self, _ERRORS)
         if self.expected is not None:
-            rows.append(f"expected error    {self.expected.text}")
-        if self.largest:
-            worst = ", ".join(f"{one['name']} {one['error']:+.3f} m" for one in self.largest)
-            rows.append(f"largest errors    {worst}")
+            yield Fact("expected error", "Errors and the expected error", self.expected.text)
+        worst = ", ".join(f"{one['name']} {one['error']:+.3f} m" for one in self.largest or ())
+        if worst:
+            yield Fact("largest errors", "Largest errors", worst)
         if self.shift is not None:
-            rows.append(
-                f"mean difference   would be removed by a shift of {self.shift:+.3f} m; nothing is"
-                " shifted"
-            )
-        return [*rows, *self.statements]
+            text = f"a shift of {self.shift:+.3f} m would remove it; nothing is shifted"
+            yield Fact("mean difference", "Mean difference", text)
+        if self.verdict and not self.doubt:
+            yield Fact("verdict", "Verdict", self.verdict)
+        if self.statement:
+            yield Fact("statement", "Statement", self.statement)
+        if self.dtm_statement:
+            yield Fact("DTM statement", "Statement on the terrain model", self.dtm_statement)
 
-    @property
-    def left_out(self) -> list[str]:
-        """The numbers and names of the checkpoints that are not counted, by the reason."""
-        left = (self.not_counted or {}).items()
-        return [f"{len(names):,} {REASONS[reason]}: {listed(names)}" for reason, names in left]
+    def _held_out(self) -> Iterator[Fact]:
+        left = self.hold_out
+        if left is None:
+            return
+        text = (
+            f"{left.left_out:,} ground points ({100 * left.share:g} %) are left out of the TIN,"
+            f" {left.no_height:,} of them in voids of the others"
+        )
+        yield Fact("held out", "Points held out", text)
+        yield from _errors(left, _HELD_OUT)
+        yield Fact("what this tells", "What held-out points tell", left.limits())
 
-    @property
-    def statements(self) -> list[str]:
-        """The statements on the points and on the terrain model."""
-        stated = {"": self.statement, "Terrain model: ": self.dtm_statement}
-        return [f"{whose}{words}" for whose, words in stated.items() if words]
+    def lines(self) -> list[str]:
+        """Return the result as lines of text for a terminal or a log."""
+        return [f"{fact.name:<16} {fact.text}" for fact in self.facts]
+
+
+def _errors(found: Check | HoldOut, names: dict[str, tuple[str, str]]) -> Iterator[Fact]:
+    """Yield the figures of errors."""
+    for attribute, (name, title) in names.items():
+        errors: Figures | None = getattr(found, attribute)
+        if errors is not None:
+            yield Fact(name, title, errors.text, errors)
 
 
 def listed(names: Sequence[str]) -> str:
