@@ -24,35 +24,31 @@ def read(tmp_path, text, columns=None, name="p.csv"):
     return read_checkpoints(tmp_path / name, columns)
 
 
-VEGETATED = """Forest|Nadelwald|brush land|VVA|Vegetated|tall grass|Forêt|Corn|Corn field|Maize
-    |Wheat|Marsh|Swamp|Mangrove|Undergrowth|GRASS_TALL|Hecke|TallGrass|Tall weeds and crops
+VEGETATED = """Forest|Nadelwald|brush land|VVA|Vegetated|tall grass|Forêt|Corn|Corn field|Maize|Wheat|Marsh
+    |Swamp|Mangrove|Undergrowth|GRASS_TALL|Hecke|TallGrass|Tall weeds and crops
     |Brush lands and low trees|Woody Wetlands|Shrub/Scrub|Cultivated Crops|open woodland
-    |Gravel/shrubs|under trees|VVA_12|Cornfield|Vegetated Vertical Accuracy|Tussock|hohes Gras
-    |Gebuesch|Röhricht|Maisfeld|Waldboden|Weinberg|Fichtenwald|Weg unter Bäumen|herbes hautes
-    |Roseaux|Sous-bois|haies|Culture de maïs|Végétation basse|Bomen|Naaldbos|Hoog gras|Struiken
-    |Árboles|hierba alta|Maíz|Matorral denso|Olivar|Alder|Eucalyptus|Erlen|Buschwerk|hohe Wiese
-    |Ronciers|Canne à sucre|Prairie haute|Populieren|Onderbegroeiing|Girasoles|Arrozal|Sottobosco
-    |Erba alta|Brughiera|Milho|Capim alto|Pinhal|Barrskog|Højt græs|Løvskog|Kratt|Mäntymetsä
-    |Korkea ruoho|Las|Las sosnowy|Wysoka trawa|Krzaki|Marsh grass|Blackberries|Tall meadow
-    |Weizenacker|Kartoffelacker|Baumreihe|Mangroven|Champ de céréales|Pantano|Humedal|Zona boscosa
-    |Mangrovie|Milharal|Cana-de-açúcar|Brejo|Korenveld|Ondergroei|Majsfält|HØJT_GRÆS|Hvedemark
-    |Underskov|Underskog|Maissipelto|Kosteikko|Mokradło|Żywopłot|Pole kukurydzy|Kukuřičné pole
-    |Podrost|Mocsár|Sövény|Mlaștină|Gard viu|Močvara|Živa meja|Ayçiçeği|Les|Listnatý les
-    |Vysoká tráva|Keře|Kukorica|Pădure|Grmlje|Koruza|Orman"""
-OPEN = """NVA|non-vegetated|unvegetated|no trees|Street|asphalt|grass|Woodward Street
-    |Treeless|Wooden deck|Waldweg|Open terrain|Urban|OpenTerrain|Short grass|Forest road|Oak Avenue
-    |Nonvegetated|Non-vegetated (bare earth)|NVA - short grass|FVA|Reed Street|road in forest
-    |vegetation free|Developed, Open Space|Bush track|Non-Vegetated Vertical Accuracy|Straße
-    |Forststraße|vegetationslos|unbewachsen|Wiesenweg|ohne Bewuchs|sans végétation|chemin forestier
-    |chemin en forêt|Sol nu|pont en bois|sin vegetación|Camino del bosque|Suelo desnudo|Bospad
-    |bosweg|geen bomen|Plowed field|Deforested|Steinbruch|Clairière|Déboisé|Onbegroeid|Asfalt
-    |Barbecho|Gravilla|Calle de las flores|Via del Bosco|Erba bassa|Terreno nudo|Relva curta
-    |Sem vegetação|Skogsväg|Kort gräs|Uden vegetation|Skovvej|Ingen vegetasjon|Metsätie|Lyhyt ruoho
+    |Gravel/shrubs|under trees|VVA_12|Cornfield|Vegetated Vertical Accuracy|Tussock
+    |hohes Gras|Gebuesch|Röhricht|Maisfeld|Waldboden|Weinberg|Fichtenwald|Weg unter Bäumen
+    |herbes hautes|Roseaux|Sous-bois|haies|Culture de maïs|Végétation basse|Bomen|Naaldbos
+    |Hoog gras|Struiken|Árboles|hierba alta|Maíz|Matorral denso|Olivar|Alder|Eucalyptus
+    |Erlen|Buschwerk|hohe Wiese|Ronciers|Canne à sucre|Prairie haute|Populieren
+    |Onderbegroeiing|Girasoles|Arrozal|Sottobosco|Erba alta|Brughiera|Milho|Capim alto
+    |Pinhal|Las|Las sosnowy|Wysoka trawa|Krzaki|Marsh grass|Blackberries|Tall meadow
+    |Weizenacker|Kartoffelacker|Baumreihe|Mangroven|Champ de céréales|Pantano|Humedal
+    |Zona boscosa|Mangrovie|Milharal|Cana-de-açúcar|Brejo|Korenveld|Ondergroei|Mokradło
+    |Żywopłot|Pole kukurydzy|Podrost"""
+OPEN = """NVA|non-vegetated|unvegetated|no trees|Street|asphalt|grass|Woodward Street|Treeless
+    |Wooden deck|Waldweg|Open terrain|Urban|OpenTerrain|Short grass|Forest road|Oak Avenue
+    |Nonvegetated|Non-vegetated (bare earth)|NVA - short grass|FVA|Reed Street
+    |road in forest|vegetation free|Developed, Open Space|Bush track
+    |Non-Vegetated Vertical Accuracy|Straße|Forststraße|vegetationslos|unbewachsen|Wiesenweg
+    |ohne Bewuchs|sans végétation|chemin forestier|chemin en forêt|Sol nu|pont en bois
+    |sin vegetación|Camino del bosque|Suelo desnudo|Bospad|bosweg|geen bomen|Plowed field
+    |Deforested|Steinbruch|Clairière|Déboisé|Onbegroeid|Asfalt|Barbecho|Gravilla
+    |Calle de las flores|Via del Bosco|Erba bassa|Terreno nudo|Relva curta|Sem vegetação
     |Holzterrasse|städtisch|Avenida del Bosque|Terraza de madera|Terrazza in legno
-    |Trilha na floresta|Boomloos|Bez drzew|Drewniany taras|Skogsgatan|Skogsstig|Trädäck|Skovsti
-    |Metsäpolku|Bez stromů|Erdő utca|Fără copaci|Šumski put|Orman Caddesi|Terreno aperto
-    |Teren otwarty|Droga leśna|Niska trawa|Bez roślinności|Lesní cesta|Nízká tráva|Drum forestier
-    |Orman yolu"""
+    |Trilha na floresta|Boomloos|Bez drzew|Drewniany taras|Terreno aperto|Teren otwarty
+    |Droga leśna|Niska trawa|Bez roślinności"""
 
 
 def names_in(text):

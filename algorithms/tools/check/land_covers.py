@@ -51,7 +51,7 @@ _ENDS = tuple(
 # With these endings the word before them decides: Maisfeld, Waldboden, cornfield.
 _NEUTRAL_ENDS = re.compile(
     "(.{3,})(?:felder|feld|fields|field|flachen|flache|gebiet|bestand|boden|rand|veld|velden|zone"
-    "|acker|akker|aker|falt|mark|pelto|tabla|reihe|streifen|saum)"
+    "|acker|akker|reihe|streifen|saum)"
 )
 _WITHOUT = re.compile("(.{3,})(?:less|los|lose|loses|losen|frei|freie|freies)|(?:un|non|on)(.+)")
 _BETWEEN = re.compile(r"[,;/+&()|:]|\s[-\u2013]\s")
