@@ -23,7 +23,7 @@ from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.tools import any_tool
 from bare_earth.algorithms.tools.assess import assess_files
-from bare_earth.algorithms.tools.ground.output import Output
+from bare_earth.algorithms.tools.ground.output import PointOutput
 from bare_earth.algorithms.tools.rasters.parameters import MapTerrain
 from bare_earth.algorithms.tools.running import run as work
 
@@ -128,7 +128,7 @@ def runs(source: Path, folder: Path, resources: Resources) -> dict[str, Callable
             "classify",
             source,
             {"output": folder / "a.laz", **two},
-            Output(height_above_ground=True),
+            PointOutput(height_above_ground=True),
         ),
     }
     for name in list(METHODS)[1:]:

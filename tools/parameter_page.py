@@ -22,7 +22,7 @@ _SECTIONS = {
     "Slope filter": ("SlopeFilter",),
     "Grid minimum": ("GridMinimum",),
     "Which points, which classes": ("Selection", "GroundClasses"),
-    "Written point clouds": ("Output", "HeightOutput"),
+    "Written point clouds": ("PointOutput", "HeightOutput"),
     "Many files": ("TileMethod", "TileInput", "TileOutput"),
     "Above the ground": ("AboveGround", "ThenAboveGround"),
     "Rasters": (

@@ -21,7 +21,7 @@ from ..las.cloud import PointCloud
 from ..las.lasfile import LasFile
 from ..las.reading import read_cloud
 from ..survey.files import Survey
-from .blocks import Block, Blocks
+from .blocks import Blocks, PlaneBlock
 from .store import code_of, row_and_column
 
 # Metres by which boxes are read wider on each side. Later the points are chosen exactly.
@@ -76,7 +76,7 @@ class BlockGrid:
         west, south, east, north = self.blocks.number(metres).astype(int).tolist()
         return range(west, east + 1), range(south, north + 1)
 
-    def holding(self, block: Block) -> BlockIndex:
+    def holding(self, block: PlaneBlock) -> BlockIndex:
         """Return the index of the block that a block is a part of, or equal to."""
         share = round(self.blocks.side / block.side)
         return BlockIndex(block.column // share, block.row // share)

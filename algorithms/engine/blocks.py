@@ -43,7 +43,7 @@ _POINTS_A_PART = 1 << 15
 _LEVELS = 4
 
 
-class Block(NamedTuple):
+class PlaneBlock(NamedTuple):
     """A square block of the plane, with its position counted to the east and to the north."""
 
     column: int
@@ -66,11 +66,11 @@ class Block(NamedTuple):
             holds[part] &= np.floor((points.y[part] + south) / self.side) == self.row
         return holds
 
-    def quarters(self) -> list[Block]:
+    def quarters(self) -> list[PlaneBlock]:
         """Return the four blocks of half the side."""
         column, row, side = 2 * self.column, 2 * self.row, self.side / 2.0
         places = itertools.product((0, 1), (0, 1))
-        return [Block(column + i, row + k, side, self.start) for k, i in places]
+        return [PlaneBlock(column + i, row + k, side, self.start) for k, i in places]
 
 
 @dataclass(frozen=True)
@@ -81,7 +81,7 @@ class Blocks:
     buffer: float  # metres
     # A block with more points is quartered, down to the width of the buffer.
     most_points: int = _MOST_POINTS
-    start: float = 0.0  # as in `Block`
+    start: float = 0.0  # as in `PlaneBlock`
     cost: Cost = _COST
 
     @classmethod
@@ -102,11 +102,11 @@ class Blocks:
         """Return the columns of the blocks at x coordinates, or the rows at y, as floats."""
         return np.floor((places - self.start) / self.side)
 
-    def block(self, column: int, row: int) -> Block:
+    def block(self, column: int, row: int) -> PlaneBlock:
         """Return a block."""
-        return Block(column, row, self.side, self.start)
+        return PlaneBlock(column, row, self.side, self.start)
 
-    def corner(self, block: Block) -> Corner:
+    def corner(self, block: PlaneBlock) -> Corner:
         """Return the place that is (0, 0) while a block, or a part of a block, is computed."""
         # The corner is near the block, so that large coordinates do not lose digits. It does not
         # depend on the extent of the survey, so results do not depend on it either.
@@ -119,13 +119,13 @@ class Blocks:
         levels = int(math.log2(max(self.side / max(self.buffer, 1e-9), 1.0)))
         return self.side / 2.0 ** min(levels, _LEVELS)
 
-    def window(self, block: Block) -> Box:
+    def window(self, block: PlaneBlock) -> Box:
         """Return the box of a block with its buffer."""
         west, south, east, north = block.box
         buffer = self.buffer
         return west - buffer, south - buffer, east + buffer, north + buffer
 
-    def over(self, store: Store) -> Iterator[Block]:
+    def over(self, store: Store) -> Iterator[PlaneBlock]:
         """Yield the blocks that may hold points of a store, from south to north."""
         leaves = store.leaves
         rows, columns = (
@@ -138,7 +138,7 @@ class Blocks:
         for row, column in sorted(places):
             yield from self._divided(self.block(column, row), store)
 
-    def _divided(self, block: Block, store: Store) -> Iterator[Block]:
+    def _divided(self, block: PlaneBlock, store: Store) -> Iterator[PlaneBlock]:
         """Yield a block, or smaller blocks if it has too many points."""
         most = store.leaves.counts[store.leaves.within(block.box)].sum()
         if most <= self.most_points:
@@ -155,7 +155,7 @@ class Blocks:
             parts = (counts[r : r + half, c : c + half] for r in (0, half) for c in (0, half))
             todo[:0] = zip(part.quarters(), parts)
 
-    def _counts(self, block: Block, store: Store) -> np.ndarray:
+    def _counts(self, block: PlaneBlock, store: Store) -> np.ndarray:
         """Return the number of points in each of the smallest blocks of a block."""
         width = round(block.side / self.leaf_side)
         counts = np.zeros((width, width), dtype=np.int64)
@@ -170,7 +170,7 @@ class Blocks:
         return counts
 
     def contents(
-        self, block: Block, store: Store, progress: Progress = SILENT, only: str | None = None
+        self, block: PlaneBlock, store: Store, progress: Progress = SILENT, only: str | None = None
     ) -> BlockPoints:
         """Return the points of a block and its buffer relative to its `corner`; for `only`, see
         `Store.read`.
@@ -186,7 +186,7 @@ class Blocks:
 class Visit(NamedTuple):
     """A block while a step works on it."""
 
-    block: Block
+    block: PlaneBlock
     blocks: Blocks
     store: Store  # with the points that the step needs
     is_only: bool  # whether all of these points lie in the block

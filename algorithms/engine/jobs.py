@@ -24,7 +24,7 @@ from ..las.lasfile import LasFile
 from ..las.opening import open_las
 from ..survey.window import may_touch, parts_in_window, read_window
 from .block_grid import BlockIndex, code, memory_of
-from .blocks import Block
+from .blocks import PlaneBlock
 from .disk_store import DiskStore
 from .file_points import FilePoints, TileResult, copies_all_else, memory_of_file
 from .manifest import Fingerprint, write_record
@@ -162,7 +162,7 @@ class BlockJob(Job):
         with DiskStore(file, grid.frame, grid.blocks, grid.step.kind) as store:
             yield Work(grid.step, store)
 
-    def _is_wanted(self, block: Block) -> bool:
+    def _is_wanted(self, block: PlaneBlock) -> bool:
         """Return whether a block, or the block that it is a part of, belongs to this job."""
         return self.output.grid.holding(block) in self.output.files
 

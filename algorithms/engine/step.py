@@ -27,7 +27,7 @@ from ..las.edits import Edits
 from ..las.lasfile import LasFile
 from ..survey.shapes import Geometry, Place
 from .block_grid import BlockGrid, BlockIndex
-from .blocks import Block, Blocks, Visit
+from .blocks import Blocks, PlaneBlock, Visit
 from .store import Marks, Store
 from .summary import TileSummary
 
@@ -36,7 +36,7 @@ _Step = TypeVar("_Step", bound="Step")
 # Returns an array of one value for each point of a file, given the type of the values.
 Allocate = Callable[[type], np.ndarray]
 # Reads all points part by part, with the results of earlier steps.
-Look = Callable[[], Iterable[PointCloud]]
+ReadPoints = Callable[[], Iterable[PointCloud]]
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -92,7 +92,7 @@ class Step:
         unsuitable, or an output that these steps cannot make of many files.
         """
 
-    def seeing(self: _Step, look: Look, frame: Frame, progress: Progress = SILENT) -> _Step:
+    def seeing(self: _Step, look: ReadPoints, frame: Frame, progress: Progress = SILENT) -> _Step:
         """Return the step with parameters that depend on all points, which `look` reads."""
         return self
 
@@ -111,7 +111,9 @@ class Step:
         """Put the large part of the result of a block into the store, and return the rest."""
         return result
 
-    def end(self, store: Store, results: Sequence[tuple[Block, Any]], progress: Progress) -> Any:
+    def end(
+        self, store: Store, results: Sequence[tuple[PlaneBlock, Any]], progress: Progress
+    ) -> Any:
         """Return the result of all blocks, given what `keep` returned for each."""
         return results
 

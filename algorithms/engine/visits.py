@@ -18,7 +18,7 @@ from ..core.errors import BareEarthError
 from ..core.points import Frame
 from ..core.progress import SILENT, Progress
 from ..las.cloud import PointCloud
-from .blocks import Block, Visit
+from .blocks import PlaneBlock, Visit
 from .blockwise import run_jobs
 from .memory import GIGABYTE, Cost, GivingBack, Resources, give_back
 from .memory_store import MemoryStore
@@ -67,7 +67,7 @@ class Work:
         self,
         resources: Resources,
         progress: Progress = SILENT,
-        is_wanted: Callable[[Block], bool] | None = None,
+        is_wanted: Callable[[PlaneBlock], bool] | None = None,
     ) -> Any:
         """Let the step work as `visited` does, after all points were added; return its result, or
         None if no point takes part.
@@ -79,7 +79,7 @@ class Work:
         self,
         resources: Resources,
         progress: Progress = SILENT,
-        is_wanted: Callable[[Block], bool] | None = None,
+        is_wanted: Callable[[PlaneBlock], bool] | None = None,
     ) -> BareEarthError | None:
         """Let the step work as `done` does; return the error that ended it, if any."""
         self.store.finish(progress.part(0.0, 0.1))
@@ -93,7 +93,7 @@ class Work:
         self,
         resources: Resources,
         progress: Progress,
-        is_wanted: Callable[[Block], bool] | None,
+        is_wanted: Callable[[PlaneBlock], bool] | None,
     ) -> Any:
         return visited([self], resources, progress, is_wanted)[0] if self.has_points else None
 
@@ -102,7 +102,7 @@ def visited(
     works: Sequence[Work],
     resources: Resources,
     progress: Progress,
-    is_wanted: Callable[[Block], bool] | None = None,
+    is_wanted: Callable[[PlaneBlock], bool] | None = None,
 ) -> list[Any]:
     """Let steps work in their blocks, or only in the wanted ones; return what `Step.end` returns
     for each step.
@@ -123,9 +123,9 @@ def _visited(
     works: Sequence[Work],
     progress: Progress,
     resources: Resources,
-    is_wanted: Callable[[Block], bool] | None,
+    is_wanted: Callable[[PlaneBlock], bool] | None,
 ) -> list[Any]:
-    todo: dict[Block, dict[int, Visit]] = defaultdict(dict)
+    todo: dict[PlaneBlock, dict[int, Visit]] = defaultdict(dict)
     for number, work in enumerate(works):
         blocks, store = work.step.blocks, work.store
         with_points = list(blocks.over(store))
@@ -150,7 +150,7 @@ def _visited(
     is_tight = sum(memory) > resources.bytes
     running = GivingBack(progress) if is_tight else progress
     jobs = [partial(_in_block, works, visits) for visits in todo.values()]
-    results: list[dict[Block, object]] = [{} for _ in works]
+    results: list[dict[PlaneBlock, object]] = [{} for _ in works]
     order = list(todo)
     for place, of_steps in run_jobs(jobs, counts, at_once, resources.thread_count, running):
         for number, result in of_steps.items():

@@ -45,7 +45,7 @@ _LEAST_REACH = 100.0
 CLASSIC = "paper"
 
 
-class Preset(NamedTuple):
+class GridPreset(NamedTuple):
     """The values of a preset; lengths in metres."""
 
     cell_size: float  # the least; cells are larger where points are sparse
@@ -56,7 +56,7 @@ class Preset(NamedTuple):
 
 
 class PaperPreset(NamedTuple):
-    """The values of the paper, named as those of `Preset`, and its ground tolerance."""
+    """The values of the paper, named as those of `GridPreset`, and its ground tolerance."""
 
     cell_size: float = 0.5
     height_thresholds: tuple[float, ...] = (5.0, 4.5, 2.0)
@@ -66,14 +66,14 @@ class PaperPreset(NamedTuple):
     slope_tolerance: float = 0.6
 
 
-PRESETS: dict[str, Preset | PaperPreset] = {
-    "automatic": Preset(1.0, (5.0, 2.0), 0.3, 150.0),
-    "flat": Preset(1.0, (5.0, 2.0), 0.25, 40.0),
-    "hilly": Preset(2.0, (5.0, 2.0), 0.3, 25.0),
-    "steep": Preset(1.0, (5.0, 2.0), 0.5, 25.0),
-    "town": Preset(1.0, (5.0, 2.0), 0.3, 60.0),
-    "city": Preset(1.0, (5.0, 2.0), 0.3, 120.0),
-    "site": Preset(0.5, (5.0, 2.0), 0.5, 25.0),
+PRESETS: dict[str, GridPreset | PaperPreset] = {
+    "automatic": GridPreset(1.0, (5.0, 2.0), 0.3, 150.0),
+    "flat": GridPreset(1.0, (5.0, 2.0), 0.25, 40.0),
+    "hilly": GridPreset(2.0, (5.0, 2.0), 0.3, 25.0),
+    "steep": GridPreset(1.0, (5.0, 2.0), 0.5, 25.0),
+    "town": GridPreset(1.0, (5.0, 2.0), 0.3, 60.0),
+    "city": GridPreset(1.0, (5.0, 2.0), 0.3, 120.0),
+    "site": GridPreset(0.5, (5.0, 2.0), 0.5, 25.0),
     CLASSIC: PaperPreset(),
 }
 

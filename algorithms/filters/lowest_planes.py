@@ -31,7 +31,7 @@ _SLOPE_CELLS = 5  # side in cells of the squares over which the slope of the ter
 _PLACES_A_PART = 2048  # places whose surroundings are computed at a time
 
 
-class Surroundings(NamedTuple):
+class LowestNeighbours(NamedTuple):
     """The lowest points round some places; arrays of shape (places, neighbours)."""
 
     centre: tuple[np.ndarray, np.ndarray, np.ndarray]  # x, y and z of the places, (places,)
@@ -161,7 +161,7 @@ class LowestOfCells(NamedTuple):
         )
         return np.nan_to_num(east * x + north * y)
 
-    def around(self, places: np.ndarray, width: float) -> Iterator[Surroundings]:
+    def around(self, places: np.ndarray, width: float) -> Iterator[LowestNeighbours]:
         """Yield the surroundings of cells (indices as of `pits`), some cells at a time, without
         points nearer than `width` metres.
         """
@@ -172,7 +172,7 @@ class LowestOfCells(NamedTuple):
         for part in parts_of(len(places), _PLACES_A_PART):
             yield self._around(places[part], offsets, width)
 
-    def _around(self, places: np.ndarray, offsets: np.ndarray, width: float) -> Surroundings:
+    def _around(self, places: np.ndarray, offsets: np.ndarray, width: float) -> LowestNeighbours:
         there = places[:, None] + offsets
         centre = tuple(grid.ravel()[places] for grid in (self.x, self.y, self.z))
         x, y, z = (
@@ -183,4 +183,4 @@ class LowestOfCells(NamedTuple):
         known = distance > width  # False for NaN
         x, y, z, distance = (np.where(known, axis, np.float32(0.0)) for axis in (x, y, z, distance))
         side = np.floor((np.arctan2(y, x) / np.pi + 1.0) * (0.5 * SIDES)).astype(np.int8) % SIDES
-        return Surroundings(centre, x, y, z, distance, side, known)
+        return LowestNeighbours(centre, x, y, z, distance, side, known)

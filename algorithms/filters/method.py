@@ -39,7 +39,7 @@ _CELL = 1.0
 _SURELY_ENOUGH = 0.1
 
 
-class Found(NamedTuple):
+class FoundGround(NamedTuple):
     """The result of a method."""
 
     ground: np.ndarray  # bool (n,): Which points are ground
@@ -85,7 +85,7 @@ class Method(NamedTuple):
         known: np.ndarray | None = None,
         multi_return: np.ndarray | None = None,
         explains: bool = False,
-    ) -> Found:
+    ) -> FoundGround:
         """Return which points are ground, given those of `known` ground and those of pulses with
         several returns.
         """
@@ -95,7 +95,7 @@ class Method(NamedTuple):
         if explains:
             rules = tuple(rule.name for rule in pipeline.rules)
             decided = Decisions(*state.codes(NOT_GROUND), rules)
-        return Found(state.ground, state.low_noise, decided)
+        return FoundGround(state.ground, state.low_noise, decided)
 
     def classify(
         self,

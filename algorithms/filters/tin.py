@@ -45,7 +45,7 @@ _LEAST_REACH = 100.0
 CLASSIC = "lidar360"
 
 
-class Preset(NamedTuple):
+class TinPreset(NamedTuple):
     """Values for the parameters that are left empty; lengths in metres."""
 
     max_building_size: float
@@ -55,7 +55,7 @@ class Preset(NamedTuple):
 
 
 class Lidar360Preset(NamedTuple):
-    """The values of LiDAR360, named as those of `Preset`, and its ground tolerance."""
+    """The values of LiDAR360, named as those of `TinPreset`, and its ground tolerance."""
 
     max_building_size: float = 20.0
     iteration_angle: float = 8.0
@@ -66,14 +66,14 @@ class Lidar360Preset(NamedTuple):
 
 # Cells of 0.5 m lose 2 to 11 % of generated berms of 0.6 to 1.8 m, cells of 1 m 35 to 43 %
 # (`python -m benchmarks.site`).
-PRESETS: dict[str, Preset | Lidar360Preset] = {
-    "automatic": Preset(150.0, 15.0, 1.4),
-    "flat": Preset(48.0, 8.0, 0.7),
-    "hilly": Preset(30.0, 15.0, 1.4),
-    "steep": Preset(30.0, 25.0, 2.0),
-    "town": Preset(60.0, 12.0, 1.4),
-    "city": Preset(120.0, 12.0, 1.4),
-    "site": Preset(25.0, 15.0, 1.4, 0.5),
+PRESETS: dict[str, TinPreset | Lidar360Preset] = {
+    "automatic": TinPreset(150.0, 15.0, 1.4),
+    "flat": TinPreset(48.0, 8.0, 0.7),
+    "hilly": TinPreset(30.0, 15.0, 1.4),
+    "steep": TinPreset(30.0, 25.0, 2.0),
+    "town": TinPreset(60.0, 12.0, 1.4),
+    "city": TinPreset(120.0, 12.0, 1.4),
+    "site": TinPreset(25.0, 15.0, 1.4, 0.5),
     CLASSIC: Lidar360Preset(),
 }
 
@@ -292,7 +292,7 @@ def _classic(resolved: TinDensification, values: Lidar360Preset) -> Pipeline:
     )
 
 
-def _densification(resolved: TinDensification, values: Preset | Lidar360Preset) -> Densification:
+def _densification(resolved: TinDensification, values: TinPreset | Lidar360Preset) -> Densification:
     return Densification(
         values.iteration_angle, values.iteration_distance, resolved.max_terrain_angle,
         resolved.reduce_angle_edge, resolved.stop_edge, resolved.noise_distance,
@@ -312,7 +312,7 @@ def _key_points(resolved: TinDensification) -> tuple[OnlyKeyPoints, ...]:
 
 def _in_words(parameters: TinDensification, apart: float = math.inf) -> str:
     """Return the chosen values for the log, and what follows if points are close together."""
-    words = parameters.in_words("preset", *Preset._fields)
+    words = parameters.in_words("preset", *TinPreset._fields)
     if apart <= DENSE_SPACING:
         words += f", a tolerance that follows the noise, as points lie {apart:.2g} m apart"
     return f"TIN densification: {words}."

@@ -15,14 +15,14 @@ import math
 import numpy as np
 
 from ..core.points import Points
-from .bridge_relief import Relief
-from .bridge_sections import Rule, Sections, raised_sections
+from .bridge_relief import BridgeRelief
+from .bridge_sections import SectionRule, Sections, raised_sections
 from .morphology import within_square
 
 _DROP = 0.5  # least height of a deck above the ground at its sides, m
 _DROP_SLOPE = 1.0  # what a metre of distance adds to it, m
 _DROP_SPACING = 0.75  # what is added to that distance, spacings of the points
-_WEAK_RULE = Rule(0.25, 0.9, False)  # of cross-sections by which a deck that was found grows
+_WEAK_RULE = SectionRule(0.25, 0.9, False)  # of cross-sections by which a deck that was found grows
 _GROWTH = 8.0  # the most that it grows, m
 _GROWTH_SPACINGS = 4.0  # or in spacings of the points, if that is more
 _LEAST_AREA = 12.0  # of a deck, m²
@@ -55,7 +55,7 @@ def bridge_decks(points: Points, ground: np.ndarray, is_cleared: bool = False) -
     none = np.zeros(points.count, dtype=bool)
     if not ground.any():
         return none
-    relief, cells = Relief.over(points, ground, is_cleared)
+    relief, cells = BridgeRelief.over(points, ground, is_cleared)
     decks, crossed = _decks(relief)
     if not decks.any():
         return none
@@ -65,14 +65,14 @@ def bridge_decks(points: Points, ground: np.ndarray, is_cleared: bool = False) -
     return on_deck & (np.abs(points.z - surface) <= _NEAR)
 
 
-def _decks(relief: Relief) -> tuple[np.ndarray, np.ndarray]:
+def _decks(relief: BridgeRelief) -> tuple[np.ndarray, np.ndarray]:
     """Return the cells of decks, and the cells that cross-sections cross; others are holes: cars,
     or points that are seen through gaps.
     """
     from scipy import ndimage
 
     decks, square = np.zeros(relief.heights.shape, dtype=bool), np.ones((3, 3))
-    rule = Rule(_DROP + _DROP_SLOPE * _DROP_SPACING * relief.spacing, _DROP_SLOPE, True)
+    rule = SectionRule(_DROP + _DROP_SLOPE * _DROP_SPACING * relief.spacing, _DROP_SLOPE, True)
     sections = raised_sections(relief, _joins_ground, rule)
     if not len(sections.steps):
         return decks, decks
@@ -97,7 +97,7 @@ def _decks(relief: Relief) -> tuple[np.ndarray, np.ndarray]:
     return _grown(relief, decks, crossed) if decks.any() else (decks, crossed)
 
 
-def _joins_ground(relief: Relief) -> np.ndarray:
+def _joins_ground(relief: BridgeRelief) -> np.ndarray:
     """Return the cells of smooth surfaces that are partly ground, unlike most roofs."""
     from scipy import ndimage
 
@@ -108,7 +108,9 @@ def _joins_ground(relief: Relief) -> np.ndarray:
     return within_square(np.maximum, has_ground[label], relief.apart + 1)
 
 
-def _is_carried(relief: Relief, row: np.ndarray, column: np.ndarray, sections: Sections) -> bool:
+def _is_carried(
+    relief: BridgeRelief, row: np.ndarray, column: np.ndarray, sections: Sections
+) -> bool:
     """Return whether ground continues at the height of some cells at both of their ends."""
     # The ends are searched along the greatest extent of the cells and across it: the deck of a wide
     # road over an underpass is shorter than wide. Most of the cross-sections must lie across the
@@ -122,7 +124,9 @@ def _is_carried(relief: Relief, row: np.ndarray, column: np.ndarray, sections: S
     return False
 
 
-def _has_ends(relief: Relief, row: np.ndarray, column: np.ndarray, up: float, right: float) -> bool:
+def _has_ends(
+    relief: BridgeRelief, row: np.ndarray, column: np.ndarray, up: float, right: float
+) -> bool:
     """Return whether cells have ground at both ends in a direction."""
     along = relief.cell * (row * up + column * right)
     span = float(np.ptp(along)) + relief.cell
@@ -143,7 +147,7 @@ def _has_ends(relief: Relief, row: np.ndarray, column: np.ndarray, up: float, ri
 
 
 def _comes_to_ground(
-    relief: Relief, row: np.ndarray, column: np.ndarray, up: float, right: float
+    relief: BridgeRelief, row: np.ndarray, column: np.ndarray, up: float, right: float
 ) -> np.ndarray:
     """Return from which cells a line in a direction meets enough level ground without a step."""
     start = last = relief.heights[row, column]
@@ -164,7 +168,7 @@ def _comes_to_ground(
     return ground * relief.cell >= _GROUND
 
 
-def _surface(relief: Relief, known: np.ndarray) -> np.ndarray:
+def _surface(relief: BridgeRelief, known: np.ndarray) -> np.ndarray:
     """Return the heights of the decks: each cell has the height of the nearest known cell."""
     from scipy import ndimage
 
@@ -173,12 +177,14 @@ def _surface(relief: Relief, known: np.ndarray) -> np.ndarray:
     return relief.heights[tuple(nearest)]
 
 
-def _growth(relief: Relief) -> float:
+def _growth(relief: BridgeRelief) -> float:
     """Return by how many metres a deck that was found is extended at most."""
     return max(_GROWTH, _GROWTH_SPACINGS * relief.spacing)
 
 
-def _grown(relief: Relief, decks: np.ndarray, crossed: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _grown(
+    relief: BridgeRelief, decks: np.ndarray, crossed: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
     """Return the grids of `_decks`, extended by raised cells up to a few metres beside decks."""
     from scipy import ndimage
 

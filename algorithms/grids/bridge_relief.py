@@ -27,7 +27,7 @@ STEP_SLOPE = 0.2
 BORDER = 15.0
 
 
-class Relief(NamedTuple):
+class BridgeRelief(NamedTuple):
     """Heights on a grid, with a border of unknown cells."""
 
     cell: float  # side of a cell in metres
@@ -47,7 +47,7 @@ class Relief(NamedTuple):
     @classmethod
     def over(
         cls, points: Points, ground: np.ndarray, is_cleared: bool = False
-    ) -> tuple[Relief, Cells]:
+    ) -> tuple[BridgeRelief, Cells]:
         """Return the relief of ground and other points, and their cells."""
         apart = spacing(points, step=_SPACING_STEP)
         cells = Cells.over(points, max(_CELL, _CELL_STEP * round(apart / 2.0 / _CELL_STEP)))
@@ -99,7 +99,7 @@ def _medians(cells: Cells, z: np.ndarray, indices: np.ndarray) -> np.ndarray:
     return heights.reshape(cells.shape)
 
 
-def _filled(relief: Relief, farthest: float) -> Relief:
+def _filled(relief: BridgeRelief, farthest: float) -> BridgeRelief:
     """Return a relief with unknown cells filled from the nearest known one, if it is near."""
     heights, is_ground = relief.heights.ravel().copy(), relief.is_ground.ravel().copy()
     rows, columns = relief.heights.shape

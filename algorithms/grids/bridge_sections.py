@@ -15,7 +15,7 @@ from typing import Callable, NamedTuple
 
 import numpy as np
 
-from .bridge_relief import BORDER, STEP, STEP_SLOPE, Relief
+from .bridge_relief import BORDER, STEP, STEP_SLOPE, BridgeRelief
 from .cells import are_inside, numbered
 from .morphology import within_square
 
@@ -42,7 +42,7 @@ _BEYOND_ONE = BORDER - _FOOT
 _RINGS = (0, 1, 2, 4)
 
 
-class Rule(NamedTuple):
+class SectionRule(NamedTuple):
     """How far the ground must lie below an edge."""
 
     drop: float  # metres
@@ -67,11 +67,11 @@ class Sections(NamedTuple):
         """Return the cross-sections that a mask, an index array or a slice selects."""
         return Sections(*(column[selected] for column in self))
 
-    def middles(self, relief: Relief) -> np.ndarray:
+    def middles(self, relief: BridgeRelief) -> np.ndarray:
         """Return the cells halfway, in the flattened grid."""
         return _Compass.of(relief).cells(self, self.steps // 2)
 
-    def cells_of(self, relief: Relief) -> np.ndarray:
+    def cells_of(self, relief: BridgeRelief) -> np.ndarray:
         """Return which cells of the grid they cross; boolean, shape (rows, columns)."""
         crossed = np.zeros(relief.heights.shape, dtype=bool)
         section = np.repeat(np.arange(len(self.steps)), self.steps + 1)
@@ -80,7 +80,9 @@ class Sections(NamedTuple):
         return crossed
 
 
-def raised_sections(relief: Relief, within: Callable[[Relief], np.ndarray], rule: Rule) -> Sections:
+def raised_sections(
+    relief: BridgeRelief, within: Callable[[BridgeRelief], np.ndarray], rule: SectionRule
+) -> Sections:
     """Return the cross-sections of smooth surfaces with lower ground, at nearly one height, beyond
     both ends; `within` returns the cells where they may begin.
     """
@@ -135,7 +137,7 @@ class _Compass(NamedTuple):
     length: np.ndarray  # float (directions,): Length of a step in metres
 
     @classmethod
-    def of(cls, relief: Relief) -> _Compass:
+    def of(cls, relief: BridgeRelief) -> _Compass:
         angle = 2.0 * math.pi * np.arange(_DIRECTIONS) / _DIRECTIONS
         up, right = np.sin(angle), np.cos(angle)
         longest = np.maximum(np.abs(up), np.abs(right))
@@ -155,7 +157,7 @@ class _Compass(NamedTuple):
         return lines._replace(direction=(lines.direction + _DIRECTIONS // 2) % _DIRECTIONS)
 
 
-def _edges(relief: Relief, rule: Rule) -> np.ndarray:
+def _edges(relief: BridgeRelief, rule: SectionRule) -> np.ndarray:
     """Return which cells of smooth surfaces may have a foot near them or a void beside them."""
     heights = relief.heights
     known = np.isfinite(heights)
@@ -178,7 +180,7 @@ def _edges(relief: Relief, rule: Rule) -> np.ndarray:
 
 
 def _feet(
-    relief: Relief, compass: _Compass, lines: Sections, rule: Rule
+    relief: BridgeRelief, compass: _Compass, lines: Sections, rule: SectionRule
 ) -> tuple[np.ndarray, np.ndarray]:
     """Return the height of the foot below the edge where each line begins, and the steps to it, 0
     where there is none.
@@ -215,7 +217,7 @@ def _feet(
     return foot, off
 
 
-def _lengths(relief: Relief, compass: _Compass, lines: Sections) -> np.ndarray:
+def _lengths(relief: BridgeRelief, compass: _Compass, lines: Sections) -> np.ndarray:
     """Return how many steps a surface continues along lines; -1 where it continues too far."""
     heights = relief.heights.ravel()
     last, length = heights[lines.start], compass.length[lines.direction]
@@ -236,7 +238,7 @@ def _lengths(relief: Relief, compass: _Compass, lines: Sections) -> np.ndarray:
 
 
 def _is_clear(
-    relief: Relief, compass: _Compass, lines: Sections, foot: np.ndarray, off: np.ndarray
+    relief: BridgeRelief, compass: _Compass, lines: Sections, foot: np.ndarray, off: np.ndarray
 ) -> np.ndarray:
     """Return where no ground lies between an edge and its foot, and the foot is in no pit."""
     heights, is_ground = relief.heights.ravel(), relief.is_ground.ravel()
@@ -255,7 +257,7 @@ def _is_clear(
 
 
 def _is_open(
-    relief: Relief,
+    relief: BridgeRelief,
     compass: _Compass,
     lines: Sections,
     foot: np.ndarray,

@@ -21,7 +21,7 @@ _LEAST_GAP = 5.0
 _Slices = tuple[slice, slice]
 
 
-class Part(NamedTuple):
+class PointPart(NamedTuple):
     """A rectangle of a grid: slices of rows and columns."""
 
     core: _Slices  # the cells of the part
@@ -29,7 +29,7 @@ class Part(NamedTuple):
     inner: _Slices  # the cells of the part, counted from the first one of the margin
 
 
-def parts_with(wanted: np.ndarray, margin: int) -> Iterator[Part]:
+def parts_with(wanted: np.ndarray, margin: int) -> Iterator[PointPart]:
     """Yield rectangles that together hold all wanted cells (rows, columns) once, with a margin of
     cells, so that the work depends on the wanted cells and not on their bounding box.
     """
@@ -43,11 +43,11 @@ def parts_with(wanted: np.ndarray, margin: int) -> Iterator[Part]:
             _side(_SQUARE * first, min(_SQUARE * last, count), count, margin)
             for first, last, count in zip(box[:2], box[2:], shape)
         ]
-        yield Part(*zip(*sides))
+        yield PointPart(*zip(*sides))
 
 
 def _side(first: int, last: int, count: int, margin: int) -> tuple[slice, slice, slice]:
-    """Return the rows or columns of `Part`: of the part, with its margin, and counted from that."""
+    """Return the rows or columns of a part, those with its margin, and where it lies there."""
     start = max(first - margin, 0)
     around = slice(start, min(last + margin, count))
     return slice(first, last), around, slice(first - start, last - start)

@@ -13,7 +13,7 @@ from .cells import are_inside
 _TOGETHER = 1 << 21
 
 
-class Piece(NamedTuple):
+class GridPiece(NamedTuple):
     """A piece of a survey, whose cells are moved beside those of the others."""
 
     window: CellWindow  # its cells, where they lie
@@ -26,10 +26,10 @@ class Piece(NamedTuple):
         row, column = self.window.row + self.up, self.window.column + self.right
         return self.window._replace(row=row, column=column)
 
-    def scaled(self, factor: int) -> Piece:
+    def scaled(self, factor: int) -> GridPiece:
         """Return the piece in smaller cells."""
         window = CellWindow(*(factor * count for count in self.window))
-        return Piece(window, factor * self.up, factor * self.right)
+        return GridPiece(window, factor * self.up, factor * self.right)
 
 
 class PieceGrid(NamedTuple):
@@ -37,7 +37,7 @@ class PieceGrid(NamedTuple):
 
     window: CellWindow
     size: float  # metres
-    pieces: tuple[Piece, ...]  # at least one; the first is not moved
+    pieces: tuple[GridPiece, ...]  # at least one; the first is not moved
 
     @classmethod
     def of(
@@ -51,12 +51,16 @@ class PieceGrid(NamedTuple):
             # Points can lie slightly beyond a rounded extent.
             windows = [window.wider(multiple) for window in windows]
             first = windows[0]
-        pieces, north, east = [Piece(first)], first.row + first.rows, first.column + first.columns
+        pieces, north, east = (
+            [GridPiece(first)],
+            first.row + first.rows,
+            first.column + first.columns,
+        )
         for window in windows[1:]:
             start = north + apart
             start += (window.row - start) % multiple
             column = first.column + (window.column - first.column) % multiple
-            pieces.append(Piece(window, start - window.row, column - window.column))
+            pieces.append(GridPiece(window, start - window.row, column - window.column))
             north, east = start + window.rows, max(east, column + window.columns)
         window = CellWindow(first.row, first.column, north - first.row, east - first.column)
         return cls(window, size, tuple(pieces))

@@ -27,7 +27,7 @@ _LONGEST_PROJJSON = 100_000
 _WKT_BIT = 0x10
 
 
-class Record(Protocol):
+class CrsRecord(Protocol):
     """A VLR or an EVLR."""
 
     @property
@@ -45,12 +45,16 @@ def read_crs(file: LasFile, progress: Progress = SILENT) -> Crs:
     """
     prefers_text = bool(file.global_encoding & _WKT_BIT)
     prefers_text |= file.point_format >= FIRST_EXTENDED_FORMAT
-    every: tuple[Record, ...] = (*file.vlrs, *file.evlrs)
+    every: tuple[CrsRecord, ...] = (*file.vlrs, *file.evlrs)
     return crs_among(every, prefers_text, file.stated, file.path.name, progress)
 
 
 def crs_among(
-    every: Sequence[Record], prefers_text: bool, stated: str | None, name: str, progress: Progress
+    every: Sequence[CrsRecord],
+    prefers_text: bool,
+    stated: str | None,
+    name: str,
+    progress: Progress,
 ) -> Crs:
     """Return the CRS of a file, given its name, all of its records, and the WKT of the CRS that the
     user states; see `read_crs`.
@@ -74,7 +78,7 @@ def crs_among(
     return crs or Crs()
 
 
-def _data_of(every: Sequence[Record], keys: Sequence[tuple[str, int]]) -> tuple[bytes, ...]:
+def _data_of(every: Sequence[CrsRecord], keys: Sequence[tuple[str, int]]) -> tuple[bytes, ...]:
     """Return the different contents of records with some keys, in the order of the keys."""
     contents = (record.data or b"" for key in keys for record in every if record.key == key)
     return tuple(dict.fromkeys(contents))

@@ -45,14 +45,14 @@ class ExtraDimension:
 
 
 @dataclass(frozen=True)
-class Place:
+class RecordField:
     """First byte and type of a dimension in the record of a point."""
 
     start: int
     kind: np.dtype
 
 
-def place_dimension(layout: LasFile, dimension: ExtraDimension) -> tuple[LasFile, Place]:
+def place_dimension(layout: LasFile, dimension: ExtraDimension) -> tuple[LasFile, RecordField]:
     """Return a file with a dimension, which is added if no dimension has that name, and its place
     in a record; refuse an unsuitable type.
     """
@@ -67,7 +67,7 @@ def place_dimension(layout: LasFile, dimension: ExtraDimension) -> tuple[LasFile
         if text_of(descriptor[4:36]) == dimension.name:
             kind = _checked_kind(layout, dimension, descriptor)
             descriptors[number] = _descriptor(dimension, descriptor[2])
-            return _with_record(layout, descriptors), Place(start, kind)
+            return _with_record(layout, descriptors), RecordField(start, kind)
         start += _size(descriptor)
     # Bytes without a descriptor come before the new dimension, so they need one now.
     number = 0
@@ -82,7 +82,7 @@ def place_dimension(layout: LasFile, dimension: ExtraDimension) -> tuple[LasFile
     descriptors.append(_descriptor(dimension, _BYTE if is_byte else _FLOAT))
     kind = np.dtype(np.uint8 if is_byte else _KINDS[_FLOAT])
     layout = with_record_length(layout, layout.record_length + kind.itemsize)
-    return _with_record(layout, descriptors), Place(start, kind)
+    return _with_record(layout, descriptors), RecordField(start, kind)
 
 
 def extra_dimensions(layout: LasFile) -> list[tuple[str, str, int]]:

@@ -105,14 +105,14 @@ def is_copc(target: Path) -> bool:
     return target.name.lower().endswith(_COPC_SUFFIX)
 
 
-class Kept(NamedTuple):
+class CopiedLayers(NamedTuple):
     """Positions in a compressed file, with which everything but the classes can be copied."""
 
     layers: ClassLayers
     octree: CopcIndex | None = None  # if the output is COPC as well
 
 
-def layers_kept(source: LasFile, target: Path) -> Kept | None:
+def layers_kept(source: LasFile, target: Path) -> CopiedLayers | None:
     """Return the layers of a compressed file whose classes are replaced in the output; None if the
     output has another format, or the source has no layers.
     """
@@ -122,18 +122,18 @@ def layers_kept(source: LasFile, target: Path) -> Kept | None:
     if layers is None:
         return None
     if not is_copc(target):
-        return Kept(layers)
+        return CopiedLayers(layers)
     try:
         octree = CopcIndex(source)
     except OctreeError:
         return None
-    return Kept(layers, octree) if octree.fits(layers.chunks) else None
+    return CopiedLayers(layers, octree) if octree.fits(layers.chunks) else None
 
 
 def _replace_classes(
     rewriting: EditedFile,
     classes: np.ndarray,
-    kept: Kept,
+    kept: CopiedLayers,
     target: Path,
     progress: Progress,
     cloud: PointCloud | None,

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Any, Iterable
 
 from ..core.errors import BareEarthError
-from ..survey.feature_files import Feature, Layer, wkb_of
+from ..survey.feature_files import Feature, FeatureLayer, wkb_of
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,7 +35,7 @@ class Features:
     name: str
 
     @classmethod
-    def of(cls, layer: Layer, features: Iterable[Feature]) -> Features:
+    def of(cls, layer: FeatureLayer, features: Iterable[Feature]) -> Features:
         """Return features that could be written as well."""
         rows = [*features]
         columns = {name: [row.values[i] for row in rows] for i, name in enumerate(layer.fields)}

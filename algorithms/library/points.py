@@ -127,7 +127,7 @@ def _coordinates(name: str, given: object) -> np.ndarray:
     return array.astype(np.float64, copy=False)
 
 
-class _Axis(NamedTuple):
+class _CoordinateAxis(NamedTuple):
     """One coordinate of all points as integers, as in files."""
 
     integers: np.ndarray  # int32, (n,)
@@ -135,14 +135,14 @@ class _Axis(NamedTuple):
     offset: float  # a multiple of the scale
 
 
-def _axis(name: str, array: np.ndarray) -> _Axis:
+def _axis(name: str, array: np.ndarray) -> _CoordinateAxis:
     """Return coordinates as multiples of the coarsest power of ten that holds them exactly, or
     rounded to the finest that holds them.
     """
     # Numbers of a file become the integers of the file. Files with equal scales give equal numbers
     # for equal places, and so do these.
     if not len(array):
-        return _Axis(np.zeros(0, dtype=np.int32), 1.0, 0.0)
+        return _CoordinateAxis(np.zeros(0, dtype=np.int32), 1.0, 0.0)
     low, high = (float(extreme(_of_parts(array, extreme))) for extreme in (np.min, np.max))
     fitting = [
         decimals
@@ -165,7 +165,7 @@ def _axis(name: str, array: np.ndarray) -> _Axis:
 
     in_threads(convert, parts_of(len(array), _POINTS_A_PART))
     scale = float(f"1e-{decimals}")
-    return _Axis(integers, scale, whole * scale)
+    return _CoordinateAxis(integers, scale, whole * scale)
 
 
 def _are_whole(array: np.ndarray, decimals: int, error: float) -> bool:

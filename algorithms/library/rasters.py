@@ -12,7 +12,7 @@ import numpy as np
 from ..core.errors import BareEarthError
 from ..core.progress import Progress
 from ..crs.stated import crs_text
-from ..rasters.geotiff import Raster as FileRaster
+from ..rasters.geotiff import HeightBand as FileRaster
 from ..rasters.geotiff import RasterGrid
 from ..rasters.writing import Band, RasterCells
 from .transform import transform_of

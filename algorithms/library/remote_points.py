@@ -46,7 +46,7 @@ def bring_points(
     }
     if not any(map(is_remote, (source for sources in given.values() for source in sources))):
         return contextlib.nullcontext()
-    from ..remote.cache import Surroundings, addresses_named, bring_all, cache_of
+    from ..remote.cache import AreaAround, addresses_named, bring_all, cache_of
     from ..remote.fetching import Wanted
     from ..tools.rasters.rows import RASTERS
 
@@ -56,7 +56,7 @@ def bring_points(
     if area is not None:
         makes_rasters = any(getattr(values, name, None) for name in (*RASTERS, "contours"))
         margin = margin_of(sets, classifies and not makes_rasters) if looks_around else 0.0
-        area = Surroundings(area.box, area.polygons, margin, crs)
+        area = AreaAround(area.box, area.polygons, margin, crs)
     advice = "Choose a smaller area"
     if not area:
         advice = f"Give an area with {option('extent')} or {option('boundary')}"

@@ -104,7 +104,7 @@ def check_cells(columns: int, rows: int, cell_metres: float) -> None:
         )
 
 
-class Raster(NamedTuple):
+class HeightBand(NamedTuple):
     """A band of a raster file in memory."""
 
     # float32 (rows, columns), in file order and the vertical unit; NaN without value.
@@ -166,7 +166,7 @@ def read_raster(
     band: int = 1,
     progress: Progress = SILENT,
     window: Window | None = None,
-) -> Raster:
+) -> HeightBand:
     """Read one band (from 1) of a raster file, or of a part as GDAL names it
     (``GPKG:survey.gpkg:dsm``), as heights; refuse a geographic CRS.
     """
@@ -187,7 +187,7 @@ def read_raster(
         heights = values.astype(np.float32)
     heights[~(valid & np.isfinite(values))] = np.nan
     frame = frame_of(source, content, progress)
-    return Raster(
+    return HeightBand(
         heights,
         content.geotransform,
         frame,

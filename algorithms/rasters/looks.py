@@ -60,7 +60,7 @@ class Ramp(NamedTuple):
     line: str = ""  # colour in profiles if the layer is one of elevations
 
 
-class Picture(NamedTuple):
+class PictureStyle(NamedTuple):
     """Greys, or red, green and blue as the bands are; without a legend."""
 
     limits: tuple[float, float] | None = None  # values that are black and white; None: as they are
@@ -79,7 +79,7 @@ class Steps(NamedTuple):
     colours: tuple[str, ...]
 
 
-Style = Union[Ramp, Picture, Categories, Steps]
+Style = Union[Ramp, PictureStyle, Categories, Steps]
 
 
 class Look(NamedTuple):

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..core.progress import Progress
 from .geotiff import RasterGrid
-from .sparse import SIDE, Part
+from .sparse import SIDE, RasterPart
 from .writing import RasterCells, write_geotiff
 
 _CELLS = 16_000_000  # cells of a strip
@@ -65,11 +65,11 @@ def _spans(cells: ScatteredCells, strip: tuple[slice, int], step: int) -> Iterat
 
 def _parts(
     cells: ScatteredCells, spans: list[_Span], step: int, shape: tuple[int, int], nodata: float
-) -> Iterator[Part]:
+) -> Iterator[RasterPart]:
     for some, start, first, last in spans:
         row, column, values = (axis[some] for axis in cells)
         inside = (column >= first) & (column < last)
         size = min(step, shape[0] - start), min(last, shape[1]) - first
         part = np.full(size, nodata, dtype=cells.values.dtype)
         part[row[inside] - start, column[inside] - first] = values[inside]
-        yield Part(start, first, part)
+        yield RasterPart(start, first, part)

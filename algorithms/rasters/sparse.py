@@ -53,7 +53,7 @@ class _Level(NamedTuple):
         return cls(shape, offsets, sizes, {})
 
 
-class Part(NamedTuple):
+class RasterPart(NamedTuple):
     """Some cells of a raster."""
 
     row: int  # of the first cell, from north
@@ -61,7 +61,7 @@ class Part(NamedTuple):
     cells: np.ndarray  # (rows, columns) or (bands, rows, columns), from north to south
 
 
-def write_sparse(path: Path, template: Path, parts: Iterable[Part], nodata: float) -> None:
+def write_sparse(path: Path, template: Path, parts: Iterable[RasterPart], nodata: float) -> None:
     """Write a raster of parts; for these and for the template, see `SparseFile`."""
     waiting = [path.with_name(f"{path.name}.{name}") for name in ("cells", "overviews")]
     try:

@@ -6,7 +6,7 @@ from typing import Any, Iterator, Protocol, Tuple
 
 import numpy as np
 
-from .geotiff import Raster
+from .geotiff import HeightBand
 from .stored import Stored
 
 # Cells that are read at a time, and that stay until others are looked at.
@@ -28,7 +28,7 @@ class Windows(Protocol):
 class RasterWindows:
     """The cells of a raster file in the order of the file, times a factor; NaN without value."""
 
-    def __init__(self, raster: Raster, factor: float = 1.0) -> None:
+    def __init__(self, raster: HeightBand, factor: float = 1.0) -> None:
         self.shape, self.raster, self.stored = raster.whole, raster, raster.stored
         self._factor, self._first = np.float32(factor), 0
         self._held = np.zeros((0, raster.whole[1]), dtype=np.float32)

@@ -18,9 +18,9 @@ from ..core.temporary import remove, shown
 from ..core.version import __version__
 from ..crs.system import unit_name, unit_symbol
 from ..crs.wkt import of_map, read_wkt, with_unit_of_heights
-from .geotiff import Raster, RasterGrid
+from .geotiff import HeightBand, RasterGrid
 from .libraries import GdalErrors, library
-from .sparse import SIDE, Part, write_sparse
+from .sparse import SIDE, RasterPart, write_sparse
 
 if TYPE_CHECKING:
     from rasterio.crs import CRS
@@ -53,14 +53,14 @@ class RasterCells(NamedTuple):
 
     shape: tuple[int, int]  # rows and columns of the raster
     kind: str  # "float32" or "uint8"
-    parts: Iterable[Part]
+    parts: Iterable[RasterPart]
     bands: int = 1  # 1, or 3 for red, green and blue
     made: int | None = None  # cells in all parts; None for all of the raster
 
     @classmethod
     def of(cls, values: np.ndarray) -> RasterCells:
         """Return the cells of an array, (rows, columns) from north to south."""
-        return cls(values.shape, values.dtype.name, [Part(0, 0, values)])
+        return cls(values.shape, values.dtype.name, [RasterPart(0, 0, values)])
 
     @property
     def are_sparse(self) -> bool:
@@ -79,14 +79,14 @@ class Band(NamedTuple):
     wkt: str | None = None  # CRS, with a vertical one only if the cells are heights
 
     @classmethod
-    def of(cls, grid: RasterGrid | Raster, nodata: float, shows: str, bands: int = 1) -> Band:
+    def of(cls, grid: RasterGrid | HeightBand, nodata: float, shows: str, bands: int = 1) -> Band:
         """Return the bands that `write_geotiff` writes; see there for `shows`."""
         metres, unit = grid.frame.vertical_unit, ""
         wkt = _wkt_of(grid.frame.wkt, "{unit}" in shows)
-        if isinstance(grid, Raster) and not grid.states_unit:
+        if isinstance(grid, HeightBand) and not grid.states_unit:
             shows = shows.replace(", {unit}", "")  # what is assumed is not stated
         elif "{unit}" in shows:
-            unit = (grid.unit if isinstance(grid, Raster) else "") or unit_name(metres)
+            unit = (grid.unit if isinstance(grid, HeightBand) else "") or unit_name(metres)
         elif shows.endswith(", degrees"):
             unit = "degree"
         return cls(nodata, shows.format(unit=unit_symbol(metres)), unit, bands, wkt)
@@ -110,7 +110,7 @@ def _wkt_of(wkt: str | None, is_height: bool) -> str | None:
 def write_geotiff(
     target: Path,
     values: np.ndarray | RasterCells,  # (rows, columns) from north to south
-    grid: RasterGrid | Raster,
+    grid: RasterGrid | HeightBand,
     nodata: float,  # for cells without a value
     progress: Progress,
     shows: str,  # name of the band; {unit} becomes the vertical unit
@@ -136,7 +136,7 @@ def check_raster(target: Path) -> None:
     _writer()
 
 
-def _writer() -> Callable[[Path, RasterCells, RasterGrid | Raster, Band, Progress], None]:
+def _writer() -> Callable[[Path, RasterCells, RasterGrid | HeightBand, Band, Progress], None]:
     """Return the function that writes with the installed library."""
     return library(_write_with_gdal, _write_with_rasterio, "Writing")
 
@@ -168,7 +168,7 @@ def _waiting_options(cells: RasterCells) -> dict[str, str]:
 
 
 def _write_with_gdal(
-    path: Path, cells: RasterCells, grid: RasterGrid | Raster, about: Band, progress: Progress
+    path: Path, cells: RasterCells, grid: RasterGrid | HeightBand, about: Band, progress: Progress
 ) -> None:
     from osgeo import gdal
 
@@ -210,7 +210,7 @@ def _write_with_gdal(
 
 
 def _describe(
-    dataset: Any, grid: RasterGrid | Raster, about: Band, progress: Progress, errors: GdalErrors
+    dataset: Any, grid: RasterGrid | HeightBand, about: Band, progress: Progress, errors: GdalErrors
 ) -> None:
     """Set what a data set of GDAL states about its cells."""
     from osgeo import gdal, osr
@@ -250,7 +250,7 @@ def _words(options: dict[str, str]) -> list[str]:
 
 
 def _write_with_rasterio(
-    path: Path, cells: RasterCells, grid: RasterGrid | Raster, about: Band, progress: Progress
+    path: Path, cells: RasterCells, grid: RasterGrid | HeightBand, about: Band, progress: Progress
 ) -> None:
     import rasterio
     import rasterio.shutil

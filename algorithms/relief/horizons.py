@@ -52,7 +52,7 @@ class Neighbour(NamedTuple):
     distance: float
 
 
-class Surroundings:
+class ObserverArea:
     """Heights in metres (NaN for none), with neighbours up to `reach` rows and columns from each
     cell, also beyond the border of the data.
     """
@@ -66,21 +66,21 @@ class Surroundings:
         self._wide = np.full((rows + 2 * down, columns + 2 * right), np.nan, dtype=np.float32)
         self._wide[down : down + rows, right : right + columns] = heights
 
-    def over_pieces(self, work: Callable[[Piece], None]) -> None:
+    def over_pieces(self, work: Callable[[HorizonPiece], None]) -> None:
         """Call a function for the pieces of the heights that hold any, in threads."""
         side = math.isqrt(PIECE)
         rows, columns = (parts_of(count, side) for count in self.shape)
         places = [(row, column) for row in rows for column in columns]
 
         def work_at(part: slice) -> None:
-            piece = Piece(self._wide, self._reach, *places[part.start])
+            piece = HorizonPiece(self._wide, self._reach, *places[part.start])
             if piece.known.any():
                 work(piece)
 
         over_parts(work_at, len(places), 1, SILENT)
 
 
-class Piece:
+class HorizonPiece:
     """Cells whose neighbours are looked at together, so that they stay in the processor's cache."""
 
     def __init__(
@@ -184,11 +184,11 @@ def _means(
     *functions: Callable[[np.ndarray], np.ndarray],
 ) -> list[np.ndarray]:
     """Return the means over all directions of functions of the tangent of the horizon."""
-    around = Surroundings(heights, horizon_reach(radii[1], cells))
+    around = ObserverArea(heights, horizon_reach(radii[1], cells))
     lines = list(_lines(cells, radii))
     means = [np.full(heights.shape, np.nan, dtype=np.float32) for _ in functions]
 
-    def work(piece: Piece) -> None:
+    def work(piece: HorizonPiece) -> None:
         sums = np.zeros((len(functions), *piece.own.shape), dtype=np.float32)
         for line in lines:
             tangent = _horizon(piece, line)
@@ -201,7 +201,7 @@ def _means(
     return means
 
 
-def _horizon(piece: Piece, line: list[Neighbour]) -> np.ndarray:
+def _horizon(piece: HorizonPiece, line: list[Neighbour]) -> np.ndarray:
     """Return the tangent of the angle of the horizon along a line."""
     tangent = np.full(piece.own.shape, -np.inf, dtype=np.float32)
     rise = np.empty_like(tangent)
@@ -242,12 +242,12 @@ def local_dominance(heights: np.ndarray, cells: Cells, radius: float) -> np.ndar
     # The observer looks at land from `radius` metres, at least one cell, up to twice as far away.
     # Beyond the border of the data, the land continues as a plane. A cell depends on others up to
     # `dominance_reach`.
-    around = Surroundings(heights, dominance_reach(radius, cells))
+    around = ObserverArea(heights, dominance_reach(radius, cells))
     seen = list(_seen(radius, cells))
     level = np.float32(sum(weight * _EYES for _, weight in seen))
     dominance = np.full(heights.shape, np.nan, dtype=np.float32)
 
-    def work(piece: Piece) -> None:
+    def work(piece: HorizonPiece) -> None:
         eyes = piece.own + np.float32(_EYES)
         total, down = np.zeros_like(eyes), np.empty_like(eyes)
         for neighbour, weight in seen:

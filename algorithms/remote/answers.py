@@ -62,7 +62,7 @@ class Expired(BareEarthError):
     """The signature in an address is not, or no longer, valid."""
 
 
-class State(NamedTuple):
+class FileVersion(NamedTuple):
     """The version of a remote file, as far as the server states it."""
 
     size: int  # bytes
@@ -80,7 +80,7 @@ class State(NamedTuple):
         return bool(self.strong_etag or self.modified)
 
 
-def range_of(start: int, stop: int, known: State | None) -> dict[str, str]:
+def range_of(start: int, stop: int, known: FileVersion | None) -> dict[str, str]:
     """Return the headers of a request for bytes, of the known version of the file if any."""
     headers = {"Range": f"bytes={start}-{stop - 1}"}
     if known is not None and known.strong_etag:
@@ -89,8 +89,8 @@ def range_of(start: int, stop: int, known: State | None) -> dict[str, str]:
 
 
 def check_range(
-    address: str, status: int, headers: Headers, start: int, stop: int, known: State | None
-) -> tuple[State, int]:
+    address: str, status: int, headers: Headers, start: int, stop: int, known: FileVersion | None
+) -> tuple[FileVersion, int]:
     """Return the state of the file and the number of bytes that follow, after a check that they are
     the requested ones; they may be fewer only at the end of a file whose state is not yet known.
     """
@@ -111,7 +111,7 @@ def check_range(
         raise _not_asked(address, "no range of bytes, or none whose file has a size")
     first, last, size = map(int, found.groups())
     etag, modified = (headers.get(name, "").strip() for name in ("ETag", "Last-Modified"))
-    state = State(size, etag if etag.isprintable() else "", modified)
+    state = FileVersion(size, etag if etag.isprintable() else "", modified)
     if known is not None and not _is_same(known, state):
         raise changed(address)
     if first != start or last != min(stop, size if known is None else stop) - 1 or last < first:
@@ -221,7 +221,7 @@ def changed(address: str) -> BareEarthError:
     )
 
 
-def _is_same(known: State, state: State) -> bool:
+def _is_same(known: FileVersion, state: FileVersion) -> bool:
     """Return whether two answers are of the same version; some servers leave headers out."""
     pairs = (known.etag, state.etag), (known.modified, state.modified)
     return known.size == state.size and all(a == b for a, b in pairs if a and b)

@@ -20,12 +20,12 @@ from ..crs.measurable import require_measurable
 from ..crs.system import Crs
 from ..survey.files import Inputs
 from .addresses import checked, is_address, shown
-from .fetching import Part, Wanted, check_size, nothing_there
-from .kept import DIGITS, Kept, Surroundings, is_sound
+from .fetching import CloudPart, Wanted, check_size, nothing_there
+from .kept import DIGITS, AreaAround, CachedPart, is_sound
 from .lists import clouds_of, near
 from .transfers import Transfers
 
-__all__ = ["Surroundings"]
+__all__ = ["AreaAround"]
 
 VARIABLE = "BARE_EARTH_CACHE"
 _OURS = re.compile(rf"[0-9a-f]{{{DIGITS}}}")  # names of folders
@@ -65,7 +65,7 @@ def bring_here(
             listed = clouds_of(address, transfers)
             is_list = is_list or [cloud.address for cloud in listed] != [address]
             clouds += near(listed, wanted.area)
-        kept = [Kept(cloud, wanted, cache, transfers) for cloud in dict.fromkeys(clouds)]
+        kept = [CachedPart(cloud, wanted, cache, transfers) for cloud in dict.fromkeys(clouds)]
         missing = [cloud for cloud in kept if not cloud.is_here]
         shares = progress.part(0.0, 0.1).shares(*[1.0] * len(missing))
         planned = [(cloud, cloud.part(share)) for cloud, share in zip(missing, shares)]
@@ -87,7 +87,7 @@ def bring_here(
     return Here(paths, is_list)
 
 
-def _check_lengths(part: Part, crs: Crs) -> None:
+def _check_lengths(part: CloudPart, crs: Crs) -> None:
     """Refuse, before the download, a cloud in a CRS with wrong lengths, such as those of 3DEP."""
     try:
         require_measurable(part.name, crs, part.box if part.area is None else part.area.bounds)
@@ -155,14 +155,14 @@ def look(addresses: Sequence[str], cache: Path, progress: Progress = SILENT) -> 
             cloud for address in map(checked, addresses) for cloud in clouds_of(address, transfers)
         ]
         # No points lie in this area, so that hardly more than the headers is read.
-        nowhere = Wanted(Surroundings((0.0, 0.0, 1e-6, 1e-6)))
+        nowhere = Wanted(AreaAround((0.0, 0.0, 1e-6, 1e-6)))
         for cloud in dict.fromkeys(clouds):
             if found and cloud.box is not None:
                 west, south, east, north = cloud.box  # lists round
                 box = west - 1.0, south - 1.0, east + 1.0, north + 1.0
                 found.append(Seen(cloud.address, found[0].crs, box))
                 continue
-            part = Kept(cloud, nowhere, cache, transfers).part(transfers.progress.quiet())
+            part = CachedPart(cloud, nowhere, cache, transfers).part(transfers.progress.quiet())
             found.append(Seen(cloud.address, part.crs, part.box))
     return found
 

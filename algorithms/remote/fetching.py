@@ -64,7 +64,7 @@ class Fetched:
         )
 
 
-class Part(Protocol):
+class CloudPart(Protocol):
     """The part of a point cloud that an area and a resolution need."""
 
     name: str
@@ -129,7 +129,7 @@ def fetch(
 
 def _found(
     address: str, transfers: Transfers, waiting: Path, wanted: Wanted, progress: Progress
-) -> list[Part]:
+) -> list[CloudPart]:
     """Return the part of each point cloud that has points in the area."""
     clouds = near(clouds_of(address, transfers), wanted.area)
     shares = progress.shares(*[1.0] * len(clouds))
@@ -145,7 +145,7 @@ def _found(
 
 def _part(
     address: str, transfers: Transfers, waiting: Path, wanted: Wanted, progress: Progress
-) -> Part:
+) -> CloudPart:
     """Return the part of a point cloud."""
     if name_of(address).lower() == DESCRIPTION:
         skips = wanted.skips_missing
@@ -157,7 +157,7 @@ def _part(
     return CopcPart(local, wanted.area, wanted.resolution, progress)
 
 
-def _zone_of(part: Part, wanted: Wanted, progress: Progress) -> Utm | None:
+def _zone_of(part: CloudPart, wanted: Wanted, progress: Progress) -> Utm | None:
     """Return the zone of UTM to which points are transformed; warn of wrong lengths if not."""
     box = part.box if part.area is None else part.area.bounds
     if wanted.to_utm and (zone := utm_of(part.name, part.crs, box, wanted.height_unit)):
@@ -180,7 +180,7 @@ def _zone_of(part: Part, wanted: Wanted, progress: Progress) -> Utm | None:
     return None
 
 
-def check_size(parts: Sequence[Part], most: float, advice: str, progress: Progress) -> None:
+def check_size(parts: Sequence[CloudPart], most: float, advice: str, progress: Progress) -> None:
     """Tell how much will be downloaded; refuse too much, with advice."""
     size, points = sum(part.size for part in parts), sum(part.point_count for part in parts)
     about = "" if all(part.is_exact for part in parts) else "about "
@@ -209,7 +209,7 @@ def check_size(parts: Sequence[Part], most: float, advice: str, progress: Progre
             )
 
 
-def _write(part: Part, zone: Utm | None, target: Path, progress: Progress) -> int:
+def _write(part: CloudPart, zone: Utm | None, target: Path, progress: Progress) -> int:
     """Write a file, transformed to a zone; return the number of points."""
     if zone is None:
         return part.write(target, progress)
@@ -221,7 +221,7 @@ def _write(part: Part, zone: Utm | None, target: Path, progress: Progress) -> in
 
 
 def _written(
-    parts: list[Part], zones: list[Utm | None], target: Path, progress: Progress
+    parts: list[CloudPart], zones: list[Utm | None], target: Path, progress: Progress
 ) -> list[int]:
     """Write one file, or one for each part into a new folder; return their numbers of points."""
     if target.suffix:
@@ -252,7 +252,7 @@ def names_of(clouds: Iterable[str]) -> list[str]:
     return names
 
 
-def nothing_there(parts: Sequence[Part], address: str) -> Outside:
+def nothing_there(parts: Sequence[CloudPart], address: str) -> Outside:
     """Return the error for an area without points."""
     area = parts[0].area if len(parts) == 1 else None
     if area is not None:

@@ -11,7 +11,7 @@ from ..core.errors import BareEarthError
 from ..core.progress import Progress
 from ..las.sources import open_source
 from .addresses import name_of, shown
-from .answers import State, changed, too_large
+from .answers import FileVersion, changed, too_large
 from .parts import Parts, Range
 from .transfers import Transfers
 
@@ -30,7 +30,7 @@ _WIDEST_GAP = 1 << 16
 _GAPS = 0.1
 
 
-class Plan(NamedTuple):
+class RequestPlan(NamedTuple):
     """The requests for some pieces of a file."""
 
     requests: list[Range]  # without ranges that are here already
@@ -43,10 +43,10 @@ class RangeFile(Protocol):
     name: str
     size: int
 
-    def plan(self, pieces: Iterable[Range]) -> Plan:
+    def plan(self, pieces: Iterable[Range]) -> RequestPlan:
         """Return the requests that give some pieces."""
 
-    def fetch(self, plan: Plan, progress: Progress) -> None:
+    def fetch(self, plan: RequestPlan, progress: Progress) -> None:
         """Get what was planned, before it is read."""
 
     def seek(self, position: int, whence: int = 0) -> int:
@@ -75,7 +75,7 @@ class RemoteFile(io.RawIOBase):
         self._head, self.version = self._first()
         self.size = self.version.size
 
-    def _first(self) -> tuple[bytes, State]:
+    def _first(self) -> tuple[bytes, FileVersion]:
         return self._transfers.one(lambda: self._transfers.read(self.address, 0, _FIRST, None))
 
     def keep_in(self, folder: Path) -> RemoteFile:
@@ -89,7 +89,7 @@ class RemoteFile(io.RawIOBase):
         """Whether the first record is that of COPC, whatever the name is."""
         return self._head[_COPC.start : _COPC.stop] == b"copc"
 
-    def plan(self, pieces: Iterable[Range]) -> Plan:
+    def plan(self, pieces: Iterable[Range]) -> RequestPlan:
         """Return the requests that give some pieces, joined across gaps."""
         wanted = [piece for piece in pieces if piece[1] > len(self._head)]
         if any(stop > self.size for _, stop in wanted):
@@ -100,9 +100,9 @@ class RemoteFile(io.RawIOBase):
             for start, stop in _joined(missing)
             for first in range(start, stop, _LARGEST)
         ]
-        return Plan(requests, sum(stop - start for start, stop in requests))
+        return RequestPlan(requests, sum(stop - start for start, stop in requests))
 
-    def fetch(self, plan: Plan, progress: Progress | None = None) -> None:
+    def fetch(self, plan: RequestPlan, progress: Progress | None = None) -> None:
         """Get what was planned, in threads, and keep it on disk."""
         tasks = [partial(self._fetch, *piece) for piece in plan.requests]
         self._transfers.run(tasks, progress, plan.size)
@@ -195,11 +195,11 @@ class LocalFile(io.FileIO):
         super().__init__(path, "rb")
         self.name, self.size = path.name, path.stat().st_size
 
-    def plan(self, pieces: Iterable[Range]) -> Plan:
+    def plan(self, pieces: Iterable[Range]) -> RequestPlan:
         """Return that no request is needed."""
-        return Plan([], 0)
+        return RequestPlan([], 0)
 
-    def fetch(self, plan: Plan, progress: Progress) -> None:
+    def fetch(self, plan: RequestPlan, progress: Progress) -> None:
         """Get nothing."""
 
     def checked(self) -> None:

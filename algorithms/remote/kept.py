@@ -20,7 +20,7 @@ from ..survey.shapes import Place, Shapes
 from .addresses import beside, name_of, shown
 from .copc import SUFFIX, CopcPart
 from .ept import DESCRIPTION, MOST_DESCRIPTION, EptPart
-from .fetching import Part, Wanted, names_of
+from .fetching import CloudPart, Wanted, names_of
 from .files import RemoteFile
 from .lists import Cloud
 from .parts import remove_parts
@@ -39,7 +39,7 @@ class _Wider(Area):
 
 
 @dataclass(frozen=True, eq=False)
-class Surroundings(Area):
+class AreaAround(Area):
     """The rectangle round an area with a margin, whose points help to classify those inside."""
 
     margin: float = 0.0  # metres
@@ -60,14 +60,14 @@ class Surroundings(Area):
         return json.dumps([self.box, rings, stated, self.margin, repr(self.crs)])
 
 
-class Kept:
+class CachedPart:
     """The file in the cache with the part of a point cloud that an area needs; in the folder of a
     version of the cloud, which also holds downloads for other areas.
     """
 
     def __init__(self, cloud: Cloud, wanted: Wanted, cache: Path, transfers: Transfers) -> None:
         self.address, self._wanted, self._transfers = cloud.address, wanted, transfers
-        area = wanted.area.key if isinstance(wanted.area, Surroundings) else ""
+        area = wanted.area.key if isinstance(wanted.area, AreaAround) else ""
         self.name, ending, part = name_of(cloud.address), SUFFIX, f"{area} {wanted.resolution}"
         self._file: RemoteFile | None = None
         self._is_certain = True
@@ -103,7 +103,7 @@ class Kept:
         remove(self.path)
         return False
 
-    def part(self, progress: Progress) -> Part:
+    def part(self, progress: Progress) -> CloudPart:
         """Return the part that has to be downloaded."""
         wanted = self._wanted
         if self._file is None:
@@ -114,7 +114,7 @@ class Kept:
             return CopcPart(file, wanted.area, wanted.resolution, progress)
         return WholePart(file, wanted.area, progress)
 
-    def bring(self, part: Part, progress: Progress) -> None:
+    def bring(self, part: CloudPart, progress: Progress) -> None:
         """Download and write a part, unless another run has done this meanwhile."""
         with one_at_a_time(self._lock, lambda: progress(0.0)):
             self.is_here = self._is_certain and self._is_sound()
@@ -124,7 +124,7 @@ class Kept:
         if part.is_whole or not self._is_certain:
             remove_parts(self.waiting)
 
-    def _write(self, part: Part, progress: Progress) -> int:
+    def _write(self, part: CloudPart, progress: Progress) -> int:
         """Write the file, and return the number of points."""
         with write_errors_told(self.path), temporary_folder(self.path.parent) as folder:
             new = folder / self.path.name

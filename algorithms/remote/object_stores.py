@@ -12,7 +12,7 @@ from urllib.parse import urlsplit
 
 from ..core.errors import BareEarthError
 from .addresses import shown
-from .answers import Missing, State, Unfinished, changed, too_large
+from .answers import FileVersion, Missing, Unfinished, changed, too_large
 
 if TYPE_CHECKING:
     from fsspec import AbstractFileSystem
@@ -29,7 +29,9 @@ class StoreReader:
         self.refusal: str | None = None
         self._lock = threading.Lock()
 
-    def read(self, address: str, start: int, stop: int, known: State | None) -> tuple[bytes, State]:
+    def read(
+        self, address: str, start: int, stop: int, known: FileVersion | None
+    ) -> tuple[bytes, FileVersion]:
         """Return bytes of an object, of the known version of it."""
         before = self._state(address) if known is None else known
         stop = min(stop, before.size) if known is None else stop
@@ -64,14 +66,14 @@ class StoreReader:
     def end_overdue(self) -> None:
         """Do nothing, because fsspec has limits of its own."""
 
-    def _state(self, address: str) -> State:
+    def _state(self, address: str) -> FileVersion:
         def info_of(store: AbstractFileSystem) -> dict[str, object]:
             return store.info(address, refresh=True)
 
         found = self._ask(address, info_of)
         etag = found.get("ETag") or found.get("etag") or ""
         modified = found.get("LastModified") or found.get("last_modified") or found.get("updated")
-        return State(int(str(found["size"])), str(etag), str(modified or ""))
+        return FileVersion(int(str(found["size"])), str(etag), str(modified or ""))
 
     def _ask(self, address: str, work: Callable[[AbstractFileSystem], _Result]) -> _Result:
         """Return the result of work on the file system of a store, and raise its errors as ours."""

@@ -13,7 +13,7 @@ from ..core.errors import BareEarthError
 from ..core.progress import PassingOn, Progress
 from ..core.words import counted
 from .addresses import STORES, host_of
-from .answers import Expired, Missing, State, Unfinished
+from .answers import Expired, FileVersion, Missing, Unfinished
 from .connections import HttpReader
 from .object_stores import StoreReader
 from .signing import Signatures
@@ -48,7 +48,9 @@ class Reader(Protocol):
     # How the user can allow redirects to other servers; None if they are allowed.
     refusal: str | None
 
-    def read(self, address: str, start: int, stop: int, known: State | None) -> tuple[bytes, State]:
+    def read(
+        self, address: str, start: int, stop: int, known: FileVersion | None
+    ) -> tuple[bytes, FileVersion]:
         """Return bytes of a file, of the known version of it."""
 
     def read_whole(self, address: str, most: int) -> bytes:
@@ -149,15 +151,15 @@ class Transfers:
         address: str,
         start: int,
         stop: int,
-        known: State | None,
+        known: FileVersion | None,
         keep: Callable[[int, bytes], object] = lambda start, data: None,
-    ) -> tuple[bytes, State]:
+    ) -> tuple[bytes, FileVersion]:
         """Return bytes of a file, of the known version of it, after further attempts if needed; the
         bytes of an answer that was cut off or cancelled are given to `keep`.
         """
         reader, came = self._reader(address), bytearray()
 
-        def ask(place: str) -> tuple[bytes, State]:
+        def ask(place: str) -> tuple[bytes, FileVersion]:
             if known is not None and start + len(came) == stop:
                 return bytes(came), known
             try:

@@ -13,8 +13,8 @@ from ..core.errors import BareEarthError
 from ..core.version import __version__
 from .addresses import checked, host_of, origin_of, shown
 from .answers import (
+    FileVersion,
     Headers,
-    State,
     Unfinished,
     check_range,
     check_whole,
@@ -44,9 +44,11 @@ class WebReader:
         self._moved: dict[str, str] = {}  # the targets of redirects, by address
         self._lock, self._closed = threading.Lock(), False
 
-    def read(self, address: str, start: int, stop: int, known: State | None) -> tuple[bytes, State]:
+    def read(
+        self, address: str, start: int, stop: int, known: FileVersion | None
+    ) -> tuple[bytes, FileVersion]:
         """Return bytes of a file, of the known version of it."""
-        states: list[State] = []
+        states: list[FileVersion] = []
 
         def check(status: int, headers: Headers) -> int:
             state, length = check_range(address, status, headers, start, stop, known)

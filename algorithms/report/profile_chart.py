@@ -20,7 +20,7 @@ _ROOM = 0.06  # share of the height that is free above and below
 _Place = Callable[[np.ndarray, np.ndarray], Tuple[np.ndarray, np.ndarray]]
 
 
-class Line(NamedTuple):
+class ChartLine(NamedTuple):
     """A line with a band round it, in the units of the axes; NaN for gaps."""
 
     along: np.ndarray
@@ -39,7 +39,11 @@ class Dots(NamedTuple):
 
 
 def profile_chart(
-    name: str, line: Line, dots: Sequence[Dots], units: tuple[str, str], ends: Mapping[str, str]
+    name: str,
+    line: ChartLine,
+    dots: Sequence[Dots],
+    units: tuple[str, str],
+    ends: Mapping[str, str],
 ) -> Html:
     """Return a chart with distances along and heights up, in units that the axes name; `ends` are
     words below the left and the right end.
@@ -97,7 +101,7 @@ def _ticks(low: float, high: float) -> list[float]:
     return [round(number * step, 9) for number in range(first, int(high / step + 1e-9) + 1)]
 
 
-def _band(line: Line, place: _Place) -> str:
+def _band(line: ChartLine, place: _Place) -> str:
     """Return the band round a line."""
     x, lower = place(line.along, line.below)
     _, upper = place(line.along, line.above)

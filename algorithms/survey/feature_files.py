@@ -41,7 +41,7 @@ _KINDS = {"Point Z": 1001, "LineString": 2, "LineString Z": 1002, "Polygon": 3}
 Corners = Union[np.ndarray, Sequence[np.ndarray]]
 
 
-class Drawing(NamedTuple):
+class DxfLayers(NamedTuple):
     """The layers of a drawing (DXF), which has no fields."""
 
     colours: Mapping[str, int]  # the layers, and the numbers of their colours
@@ -49,7 +49,7 @@ class Drawing(NamedTuple):
     place: Callable[[tuple[Any, ...]], tuple[str, float]]
 
 
-class Layer(NamedTuple):
+class FeatureLayer(NamedTuple):
     """What the features of a file have in common."""
 
     name: str  # in formats with several layers
@@ -57,7 +57,7 @@ class Layer(NamedTuple):
     fields: Mapping[str, type]  # names, and types of the values: int, float or str
     wkt: str | None
     epsg: int | None
-    drawing: Drawing | None = None  # by default one layer with the name
+    drawing: DxfLayers | None = None  # by default one layer with the name
 
 
 class Feature(NamedTuple):
@@ -93,7 +93,7 @@ def feature_writer(target: Path) -> Callable[..., int]:
 
 
 def _geojson(
-    target: Path, features: Iterable[Feature], layer: Layer, progress: Progress = SILENT
+    target: Path, features: Iterable[Feature], layer: FeatureLayer, progress: Progress = SILENT
 ) -> int:
     crs, count = f"urn:ogc:def:crs:EPSG::{layer.epsg}" if layer.epsg else None, 0
     if crs is None:
@@ -117,17 +117,17 @@ def _geojson(
 
 
 def _dxf(
-    target: Path, features: Iterable[Feature], layer: Layer, progress: Progress = SILENT
+    target: Path, features: Iterable[Feature], layer: FeatureLayer, progress: Progress = SILENT
 ) -> int:
     name = layer.name.upper()
-    drawing = layer.drawing or Drawing({name: 7}, lambda values: (name, 0.0))
+    drawing = layer.drawing or DxfLayers({name: 7}, lambda values: (name, 0.0))
     stated = f"EPSG:{layer.epsg}" if layer.epsg else "the CRS of the input"
     progress.info(f"{target.name} cannot state its CRS: its coordinates are in {stated}.")
     shapes = (shape for feature in features for shape in _drawn(feature, layer.kind, drawing))
     return write_dxf(target, shapes, drawing.colours, f"Bare Earth, {layer.name}, {stated}")
 
 
-def _drawn(feature: Feature, kind: str, drawing: Drawing) -> Iterator[Drawn]:
+def _drawn(feature: Feature, kind: str, drawing: DxfLayers) -> Iterator[Drawn]:
     """Yield a feature as a drawing has it: a polygon as the lines of its rings."""
     layer, height = drawing.place(feature.values)
     for corners in feature.corners if kind == "Polygon" else [feature.corners]:
@@ -138,7 +138,7 @@ def _drawn(feature: Feature, kind: str, drawing: Drawing) -> Iterator[Drawn]:
 
 
 def _by_pyogrio(
-    target: Path, features: Iterable[Feature], layer: Layer, progress: Progress = SILENT
+    target: Path, features: Iterable[Feature], layer: FeatureLayer, progress: Progress = SILENT
 ) -> int:
     import pyogrio
 
@@ -174,7 +174,7 @@ def _by_pyogrio(
 
 
 def _by_gdal(
-    target: Path, features: Iterable[Feature], layer: Layer, progress: Progress = SILENT
+    target: Path, features: Iterable[Feature], layer: FeatureLayer, progress: Progress = SILENT
 ) -> int:
     from osgeo import gdal, ogr, osr
 
@@ -211,7 +211,7 @@ def _by_gdal(
     return count
 
 
-def _layer_of(target: Path, layer: Layer) -> str:
+def _layer_of(target: Path, layer: FeatureLayer) -> str:
     """Return the name of the layer; in formats with one layer it is the name of the file."""
     return layer.name if target.suffix.lower() == ".gpkg" else target.stem
 

@@ -25,7 +25,7 @@ from ..las.reading import read_parts
 from ..las.sources import read_text
 from .common_crs import common_crs, names_of
 from .copies import copies_in, tell_of_twins
-from .pieces import Piece, pieces_of, tell_of_strays
+from .pieces import FilePiece, pieces_of, tell_of_strays
 from .shapes import Place
 from .vpc import SUFFIX as VPC_SUFFIX
 from .vpc import is_overview, no_extent, read_vpc
@@ -126,7 +126,7 @@ class Survey:
         return np.array([tile.outer_box for tile in self.tiles])
 
     @cached_property
-    def pieces(self) -> list[Piece]:
+    def pieces(self) -> list[FilePiece]:
         """The parts of the survey that lie far apart, the one with the most points first."""
         return pieces_of(self.tiles, self.crs.horizontal_unit)
 

@@ -36,7 +36,7 @@ _MOST_TOLD = 3  # groups of stray points that are named
 Read = Callable[[LasFile, Progress], Iterable[PointCloud]]
 
 
-class Piece(NamedTuple):
+class FilePiece(NamedTuple):
     """Points of a survey that lie together."""
 
     box: Box  # smallest x and y, largest x and y, in units of the CRS
@@ -62,7 +62,7 @@ class _Held(NamedTuple):
 
 def pieces_of(
     tiles: Iterable[LasFile], unit: float, progress: Progress = SILENT, read: Read = read_parts
-) -> list[Piece]:
+) -> list[FilePiece]:
     """Return the pieces of a survey, the one with the most points first, given the metres in a unit
     of the CRS; the points of files are read only where the extent leaves room for stray ones.
     """
@@ -81,7 +81,7 @@ def pieces_of(
         apart = _distance(box[own], box[~is_few[group]]) * unit if is_few[number] else 0.0
         is_stray = apart > _TIMES_APART * max(width, height) and math.isfinite(apart)
         pieces.append(
-            Piece(
+            FilePiece(
                 extent, scaled(extent, unit), of_piece, width * height if is_full else filled,
                 apart if is_stray else math.nan,
             )
@@ -116,7 +116,7 @@ def _distance(boxes: np.ndarray, others: np.ndarray) -> float:
     return least
 
 
-def tell_of_strays(pieces: Iterable[Piece], progress: Progress) -> None:
+def tell_of_strays(pieces: Iterable[FilePiece], progress: Progress) -> None:
     """Warn of points that lie far from all others."""
     stray = [piece for piece in pieces if piece.is_stray]
     for piece in stray[:_MOST_TOLD]:

@@ -107,7 +107,7 @@ class LatticeSample:
         outer = np.concatenate([tile.outer for tile in self.tiles.values()])
         return outer[hull_corners(self.points.x[outer], self.points.y[outer])]
 
-    def window(self, place: TilePlace, margin: int) -> Window:
+    def window(self, place: TilePlace, margin: int) -> LatticeWindow:
         """Return the lattice of a tile (row and column) with the points of a margin round it, in
         cells, at most as wide as a tile.
         """
@@ -127,10 +127,10 @@ class LatticeSample:
             y.append(tile.y[inside] + row * TILE)
             source.append(tile.source[inside])
             count += len(inside)
-        return Window(lattice, np.concatenate(x), np.concatenate(y), np.concatenate(source))
+        return LatticeWindow(lattice, np.concatenate(x), np.concatenate(y), np.concatenate(source))
 
 
-class Window(NamedTuple):
+class LatticeWindow(NamedTuple):
     """The lattice of a tile and of a margin round it."""
 
     lattice: np.ndarray  # int32 (rows, columns), the number of the point in each cell; -1 for none

@@ -15,9 +15,9 @@ from ..core.progress import SILENT, Progress
 from ..crs.matching import described, is_other_datum
 from ..grids.canopy import PIT_PASSES, canopy_height, without_pits
 from ..rasters.content import NO_CELLS, Source
-from ..rasters.geotiff import NODATA, Raster, read_raster
+from ..rasters.geotiff import NODATA, HeightBand, read_raster
 from ..rasters.sampling import HeightRaster, HeightSampler
-from ..rasters.sparse import Part
+from ..rasters.sparse import RasterPart
 from ..rasters.writing import RasterCells, write_geotiff
 from .declaration import CANOPY, RASTER, FileTool, Input, Output
 from .rasters.parameters import SurfaceModel
@@ -56,12 +56,12 @@ class Canopy:
 class _Heights:
     """Surface and terrain of the cells of the surface model, in metres."""
 
-    def __init__(self, surface: Raster, terrain: Source, progress: Progress) -> None:
+    def __init__(self, surface: HeightBand, terrain: Source, progress: Progress) -> None:
         self.surface, self.unit = surface, surface.frame.vertical_unit
         of_terrain = read_raster(terrain, window=NO_CELLS, progress=progress)
         self._terrain_unit = of_terrain.frame.vertical_unit
         _refuse_other_crs(surface, of_terrain, terrain, progress)
-        self._terrain: Raster | HeightSampler = of_terrain
+        self._terrain: HeightBand | HeightSampler = of_terrain
         if not is_same_grid(surface, of_terrain):
             progress.info(
                 f"{terrain} is not on the grid of {surface.source}: its heights are interpolated"
@@ -72,7 +72,7 @@ class _Heights:
     def rows(self, *part: int) -> tuple[np.ndarray, np.ndarray]:
         """Return some rows and columns of the surface and of the terrain, as `Raster.rows`."""
         surface = self.surface.rows(*part).astype(np.float64) * self.unit
-        if isinstance(self._terrain, Raster):
+        if isinstance(self._terrain, HeightBand):
             heights = self._terrain.rows(*part)
         else:
             rows, columns = surface.shape
@@ -137,7 +137,7 @@ class _Found:
 
 def _parts(
     heights: _Heights, fills_pits: bool, found: _Found, progress: Progress
-) -> Iterator[Part]:
+) -> Iterator[RasterPart]:
     """Yield the canopy height, some rows at a time."""
     margin, stored = PIT_PASSES if fills_pits else 0, heights.surface.stored
     for start, end in stored.strips(_CELLS):
@@ -149,11 +149,11 @@ def _parts(
             canopy = canopy_height(surface, terrain)
             canopy = (without_pits(canopy) if fills_pits else canopy)[inner] / heights.unit
             cells = np.where(np.isnan(canopy), NODATA, canopy).astype(np.float32)
-            yield Part(start, first, cells)
+            yield RasterPart(start, first, cells)
         progress(end / heights.surface.whole[0])
 
 
-def is_same_grid(one: Raster, other: Raster) -> bool:
+def is_same_grid(one: HeightBand, other: HeightBand) -> bool:
     """Return whether two rasters have the same cells."""
     size = abs(one.geotransform[1]) + abs(one.geotransform[2])
     # Differences of the sides of cells add up over the raster.
@@ -162,7 +162,9 @@ def is_same_grid(one: Raster, other: Raster) -> bool:
     return one.whole == other.whole and bool((off <= _SAME * size).all())
 
 
-def _refuse_other_crs(surface: Raster, terrain: Raster, name: Source, progress: Progress) -> None:
+def _refuse_other_crs(
+    surface: HeightBand, terrain: HeightBand, name: Source, progress: Progress
+) -> None:
     """Refuse a terrain model in another CRS, and warn of another vertical datum."""
     if not (surface.frame.wkt and terrain.frame.wkt):
         return

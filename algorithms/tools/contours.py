@@ -15,9 +15,9 @@ from ..core.progress import SILENT, Progress
 from ..grids.isolines import Isoline, Isolines
 from ..grids.morphology import within_square
 from ..rasters.content import NO_CELLS, Source
-from ..rasters.geotiff import Raster, read_raster
+from ..rasters.geotiff import HeightBand, read_raster
 from ..relief.local_relief import Sigma, local_trend, reach_of
-from ..survey.feature_files import Drawing, Feature, Layer, feature_writer
+from ..survey.feature_files import DxfLayers, Feature, FeatureLayer, feature_writer
 from .declaration import RASTER, TERRAIN, FileTool, Input, Output
 
 # About as many lines make a map that is easy to read.
@@ -48,7 +48,7 @@ _LAYERS = {
     (0, 1): "DEPRESSION", (1, 1): "DEPRESSION_INDEX",
 }  # fmt: skip
 _COLOURS = dict(zip(_LAYERS.values(), (34, 32, 24, 22)))
-_DRAWING = Drawing(_COLOURS, lambda values: (_LAYERS[values[2], values[3]], float(values[1])))
+_DRAWING = DxfLayers(_COLOURS, lambda values: (_LAYERS[values[2], values[3]], float(values[1])))
 
 
 class ContourLine(NamedTuple):
@@ -146,8 +146,8 @@ def draw_contours(
 
 
 def contours_of(
-    raster: Raster, contours: Contours, progress: Progress
-) -> tuple[Interval, Layer, Iterator[Feature]]:
+    raster: HeightBand, contours: Contours, progress: Progress
+) -> tuple[Interval, FeatureLayer, Iterator[Feature]]:
     """Return the contour lines of a raster."""
     low, high = _range_of(raster, progress.part(0.0, 0.2))
     raster.tell(progress)
@@ -161,7 +161,9 @@ def contours_of(
             f"An interval of {interval.in_words()} would give more than {_MOST_LEVELS:,} heights of"
             " contour lines. Choose a larger one."
         )
-    layer = Layer("contours", "LineString", _FIELDS, raster.frame.wkt, raster.crs.epsg, _DRAWING)
+    layer = FeatureLayer(
+        "contours", "LineString", _FIELDS, raster.frame.wkt, raster.crs.epsg, _DRAWING
+    )
     lines = enumerate(_lines_of(raster, contours, height, progress.part(0.2, 1.0)))
     features = (
         Feature((number, line.height, int(line.is_index), int(line.is_depression)), line.corners)
@@ -170,7 +172,7 @@ def contours_of(
     return interval, layer, features
 
 
-def _range_of(raster: Raster, progress: Progress) -> tuple[float, float]:
+def _range_of(raster: HeightBand, progress: Progress) -> tuple[float, float]:
     """Return the lowest and the highest height; infinite ones of a raster without any."""
     low, high, stored = math.inf, -math.inf, raster.stored
     for start, end in stored.strips(_CELLS):
@@ -184,7 +186,7 @@ def _range_of(raster: Raster, progress: Progress) -> tuple[float, float]:
 
 
 def _lines_of(
-    raster: Raster, how: Contours, interval: float, progress: Progress
+    raster: HeightBand, how: Contours, interval: float, progress: Progress
 ) -> Iterator[ContourLine]:
     """Yield the lines of a raster."""
     (count, columns), unit, stored = raster.whole, raster.frame.horizontal_unit, raster.stored
@@ -217,7 +219,7 @@ class _Smoothing(NamedTuple):
     reach: int  # in rows
 
     @classmethod
-    def of(cls, raster: Raster, how: Contours, interval: float) -> _Smoothing:
+    def of(cls, raster: HeightBand, how: Contours, interval: float) -> _Smoothing:
         """Return the smoothing of a raster, given the interval in its unit."""
         _, a, b, _, c, d = raster.geotransform
         unit = raster.frame.horizontal_unit
@@ -263,7 +265,7 @@ def _greatest(values: np.ndarray, places: np.ndarray) -> float:
     return float(np.fmax.reduce(part, axis=None, initial=0.0))
 
 
-def corners_of(places: np.ndarray, raster: Raster) -> np.ndarray:
+def corners_of(places: np.ndarray, raster: HeightBand) -> np.ndarray:
     """Return x and y of rows and columns of a raster, (n, 2); the centres of cells are whole."""
     x, a, b, y, c, d = raster.geotransform
     row, column = places.T + 0.5

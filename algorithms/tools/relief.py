@@ -12,13 +12,12 @@ from ..core.parameters import ParameterSet, parameter, parameter_of
 from ..core.progress import SILENT, Progress
 from ..core.threads import available_cpus, may_use
 from ..rasters.content import NO_CELLS, Source
-from ..rasters.geotiff import NODATA, Raster, read_raster
-from ..rasters.sparse import Part
+from ..rasters.geotiff import NODATA, HeightBand, read_raster
+from ..rasters.sparse import RasterPart
 from ..rasters.writing import RasterCells, write_geotiff
 from .declaration import RASTER, TERRAIN, FileTool, Input, Output
 from .rasters.parameters import MapTerrain, TerrainModel
-from .rasters.rows import RASTERS, How
-from .rasters.rows import Raster as Row
+from .rasters.rows import RASTERS, How, RasterRow
 
 # Cells that are worked on at a time.
 _CELLS = 4_000_000
@@ -100,7 +99,9 @@ def files_of(output: Path, sets: Sequence[ParameterSet]) -> dict[str, Path]:
     return {KINDS[kind]: output / f"{kind}.tif" for kind in kinds.kinds}
 
 
-def _parts(raster: Raster, row: Row, how: How, nodata: float, progress: Progress) -> Iterator[Part]:
+def _parts(
+    raster: HeightBand, row: RasterRow, how: How, nodata: float, progress: Progress
+) -> Iterator[RasterPart]:
     """Yield the relief of a raster, some rows at a time, where it has data near."""
     unit, reach, count = raster.frame.vertical_unit, row.margin(how), raster.whole[0]
     stored = raster.stored
@@ -111,7 +112,7 @@ def _parts(raster: Raster, row: Row, how: How, nodata: float, progress: Progress
             metres = heights.astype(np.float64) * unit
             relief = row.rows(metres, how=how, unit=unit, nodata=nodata)
             rows, columns = slice(start - south, end - south), slice(first - west, last - west)
-            yield Part(start, first, relief[..., rows, columns])
+            yield RasterPart(start, first, relief[..., rows, columns])
         progress(0.05 + 0.85 * end / count)
 
 

@@ -16,7 +16,7 @@ from ...algorithms.core.progress import Progress
 from ...algorithms.survey.area import Area, Polygon
 from ...algorithms.survey.shapes import Shapes
 from ...algorithms.tools.declaration import Input, help_of_area
-from ...algorithms.tools.ground.output import Output
+from ...algorithms.tools.ground.output import PointOutput
 from .. import compat
 from ..i18n import mark
 from .feedback import Refusal
@@ -102,7 +102,7 @@ def area_in_own_crs(
 def check_area_only(parameters: dict[str, object], chosen: Sequence[ParameterSet]) -> None:
     """Refuse to write only the points in the area if there is no area."""
     for values in chosen:
-        if isinstance(values, Output):
+        if isinstance(values, PointOutput):
             values.check_area(has_area(parameters))
 
 

@@ -31,7 +31,7 @@ from ..i18n import mark, tr
 from ..styles import layers
 from ..styles.loaded import later
 from ..styles.metadata import Origin, settings_of
-from ..styles.stage import Stage
+from ..styles.stage import LayerStage
 from .area import check_area_only
 from .feedback import FeedbackProgress, Refusal, tell_error_once, tell_of_unknown
 from .fields import field_of, parameters_of
@@ -39,7 +39,7 @@ from .inputs import CloudCrs, remember_origin
 from .output_checks import check_outputs
 from .outputs import NOTHING_STAYS, do_not_load, is_blank, places_of, with_outputs_of_step
 from .presets import presets_of
-from .runs import Run, is_remembered, plain_values, remember
+from .runs import PastRun, is_remembered, plain_values, remember
 from .stated_crs import crs_of_text, stated_crs_of
 
 _ICONS = Path(__file__).parents[1] / "icons"
@@ -177,7 +177,7 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         stated = self.stated or self.layer_crs
         return CloudCrs(*sources, recursive=recursive, stated=stated)
 
-    def show(self, path: str, look: layers.Look) -> None:
+    def show(self, path: str, look: layers.LayerLook) -> None:
         """Set the look of an output layer; rasters with a row do not need this."""
         self._looks[path] = look
 
@@ -284,11 +284,11 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         self._settings = settings_of(self, parameters, context)
         self._values = plain_values(self, parameters)
         self.class_counts: Mapping[int, int] = {}
-        self._looks: dict[str, layers.Look] = {}
+        self._looks: dict[str, layers.LayerLook] = {}
         names = [self.subject, tr(self.run_name or self.title)]
         with errors_for_qgis():
             group, places = ": ".join(filter(None, names)), places_of(self, parameters, context)
-            self._stage = Stage(context, group, places)
+            self._stage = LayerStage(context, group, places)
         return True
 
     def processAlgorithm(
@@ -322,7 +322,7 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         self, results: dict[str, object], context: QgsProcessingContext, commands: tuple[str, ...]
     ) -> None:
         """Set names, styles and places of the layers, and reload those of an earlier run."""
-        looks: dict[str, layers.Look] = {}
+        looks: dict[str, layers.LayerLook] = {}
         labels, known = {}, layers.raster_looks()
         for name in filter(self.parameterDefinition, results):
             path = str(results[name])
@@ -339,7 +339,7 @@ class BareEarthAlgorithm(QgsProcessingAlgorithm):
         origin = Origin.of(self.displayName(), self._settings, commands)
         layers.arrange(context, looks, labels, subject, self._stage, origin)
         if results and is_remembered(self):
-            project, run = context.project(), Run(self.id(), self._values, results, time.time())
+            project, run = context.project(), PastRun(self.id(), self._values, results, time.time())
             later(lambda: remember(project, run))
 
 

@@ -23,7 +23,7 @@ from qgis.core import (
 from ...algorithms.core.errors import BareEarthError
 from ...algorithms.core.progress import Progress
 from ...algorithms.tools.check.checkpoints import Checkpoints
-from ...algorithms.tools.check.reading import Record, checkpoints_of_rows, read_checkpoints
+from ...algorithms.tools.check.reading import CheckpointRow, checkpoints_of_rows, read_checkpoints
 from ...algorithms.tools.check.tables import SUFFIXES, read_table
 from .. import compat
 from ..i18n import mark, tr
@@ -129,15 +129,15 @@ def _table_of(value: object, context: QgsProcessingContext) -> Path | None:
     return _file_of(parts.get("path"))
 
 
-def _record(number: int, feature: QgsFeature, names: list[str], is_row: bool) -> Record:
+def _record(number: int, feature: QgsFeature, names: list[str], is_row: bool) -> CheckpointRow:
     """Return the attributes of a feature, and its place unless it is the row of a table."""
     cells = [None if compat.is_null(feature[name]) else feature[name] for name in names]
     if is_row:
-        return Record(f"Row {number}", cells)
+        return CheckpointRow(f"Row {number}", cells)
     point = feature.geometry().constGet()
     if isinstance(point, QgsMultiPoint):  # of several points, the first
         point = point.geometryN(0)
     if not isinstance(point, QgsPoint):
         raise Refusal(mark('The layer "{}" holds no point. Choose one that does.'), "Checkpoints")
     place = np.array([point.x(), point.y(), point.z() if point.is3D() else np.nan])
-    return Record(f"Point {number}", cells, place)
+    return CheckpointRow(f"Point {number}", cells, place)

@@ -22,7 +22,7 @@ from ...algorithms.tools import map_tool
 from ...algorithms.tools.contours import Contours
 from ...algorithms.tools.declaration import Composition
 from ...algorithms.tools.ground.method import TileMethod
-from ...algorithms.tools.ground.output import Output as Written
+from ...algorithms.tools.ground.output import PointOutput as Written
 from ...algorithms.tools.rasters.parameters import MapTerrain, SurfaceModel, TerrainModel
 from .. import compat
 from ..i18n import mark

@@ -11,7 +11,7 @@ from ...algorithms.core.parameters import ParameterSet
 from ...algorithms.tools import map_tool
 from ...algorithms.tools.declaration import MapTool
 from ...algorithms.tools.ground.dialogs import METHOD_TOOLS
-from ...algorithms.tools.ground.output import Output
+from ...algorithms.tools.ground.output import PointOutput
 from ...algorithms.tools.rasters.parameters import RasterOutput, TerrainModel
 from ..i18n import mark
 from .base import command_line
@@ -42,7 +42,9 @@ class MapAlgorithm(ToolAlgorithm):
         # Those around it are downloaded to judge these, and nobody asked for them.
         is_remote = any(found.remotes for found in self._given.values())
         return [
-            replace(values, area_only=True) if is_remote and isinstance(values, Output) else values
+            replace(values, area_only=True)
+            if is_remote and isinstance(values, PointOutput)
+            else values
             for values in super().chosen(parameters, context)
         ]
 

@@ -23,7 +23,7 @@ from ..i18n import tr
 from ..styles import layers
 from ..styles.loaded import fresh_path
 from ..styles.metadata import Origin, settings_of
-from ..styles.stage import Stage
+from ..styles.stage import LayerStage
 from .base import BareEarthAlgorithm, errors_for_qgis, words_in
 from .choices import ChoiceParameter, with_labels
 from .feedback import tell_of_unknown
@@ -131,7 +131,7 @@ class ShippedModel(QgsProcessingModelAlgorithm):
         self._settings = settings_of(self, parameters, context)
         group, places = self.displayName(), places_of(self, parameters, context)
         with errors_for_qgis():
-            self._stage = Stage(context, f"{self._subject}: {group}", places, is_in_place=True)
+            self._stage = LayerStage(context, f"{self._subject}: {group}", places, is_in_place=True)
         return super().prepareAlgorithm(parameters, context, feedback)
 
     def processAlgorithm(

@@ -18,7 +18,7 @@ from .. import compat
 from ..i18n import mark
 from ..styles.loaded import is_same, sources_of
 from .feedback import Refusal
-from .runs import Run, chain_to, maker_of, runs_of
+from .runs import PastRun, chain_to, maker_of, runs_of
 
 _OTHERS = mark('"{}" is from the run "{}", and "{}" from "{}": choose both from one run.')
 # What decides about the ground and the terrain: the source, what is drawn by hand, and these sets.
@@ -38,7 +38,7 @@ class _Made(NamedTuple):
     """An input that a run of the project made."""
 
     path: str
-    chain: list[Run]  # the runs that led to it, as `chain_to` returns them
+    chain: list[PastRun]  # the runs that led to it, as `chain_to` returns them
 
     def name(self, project: QgsProject) -> str:
         """The name of its layer, or of its file."""
@@ -62,7 +62,7 @@ def refuse_two_runs(paths: Iterable[str], project: QgsProject) -> None:
             raise Refusal(_OTHERS, *names)
 
 
-def _made(paths: Iterable[str], runs: list[Run]) -> Iterator[_Made]:
+def _made(paths: Iterable[str], runs: list[PastRun]) -> Iterator[_Made]:
     """Yield the inputs that runs made that classified their points."""
     for path in filter(None, paths):
         run, file = maker_of(path, runs), Path(path)
@@ -75,7 +75,7 @@ def _made(paths: Iterable[str], runs: list[Run]) -> Iterator[_Made]:
             yield _Made(path, chain)
 
 
-def _is_other(first: list[Run], second: list[Run]) -> bool:
+def _is_other(first: list[PastRun], second: list[PastRun]) -> bool:
     """Return whether two chains of runs give another ground; False if that is not known."""
     one, other = first[0], second[0]
     if one.algorithm != other.algorithm:
@@ -92,7 +92,7 @@ def _is_other(first: list[Run], second: list[Run]) -> bool:
     return any(_is_other_value(one, other, field) for field in fields)
 
 
-def _is_other_value(one: Run, other: Run, field: QgsProcessingParameterDefinition) -> bool:
+def _is_other_value(one: PastRun, other: PastRun, field: QgsProcessingParameterDefinition) -> bool:
     name = field.name()
     values = [run.parameters.get(name, field.defaultValue()) for run in (one, other)]
     first, second = ("" if compat.is_null(value) else str(value) for value in values)

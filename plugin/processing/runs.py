@@ -30,7 +30,7 @@ _CLOUDS = ("OUTPUT", "OUTPUT_VPC", "OUTPUT_FOLDER")
 MADE_AS = "made_as"
 
 
-class Run(NamedTuple):
+class PastRun(NamedTuple):
     """A run of an algorithm, with values that a project file can hold."""
 
     algorithm: str  # its id
@@ -80,7 +80,7 @@ class Sources(NamedTuple):
     error: str = ""  # the expected error
     # That led from the classification to the places, in their order; empty if none can be
     # corrected.
-    runs: tuple[Run, ...] = ()
+    runs: tuple[PastRun, ...] = ()
 
 
 def is_remembered(algorithm: QgsProcessingAlgorithm) -> bool:
@@ -118,17 +118,17 @@ def _plain(value: Any) -> object:
     return shown(str(value))  # of an address, without its signature
 
 
-def remember(project: QgsProject | None, run: Run) -> None:
+def remember(project: QgsProject | None, run: PastRun) -> None:
     """Add a run to those of the project; only in the main thread."""
     if project is not None:
         kept = [*runs_of(project), run][-_MOST:]
         project.writeEntry(*_PLACE, json.dumps([one._asdict() for one in kept]))
 
 
-def runs_of(project: QgsProject) -> list[Run]:
+def runs_of(project: QgsProject) -> list[PastRun]:
     """Return the runs of the project, the last one at the end."""
     text, _ = project.readEntry(*_PLACE, "[]")
-    return [Run(**run) for run in json.loads(text)]
+    return [PastRun(**run) for run in json.loads(text)]
 
 
 def made_last(name: str, project: QgsProject) -> str:
@@ -142,14 +142,14 @@ def made_last(name: str, project: QgsProject) -> str:
     return ""
 
 
-def maker_of(path: str, runs: Iterable[Run]) -> Run | None:
+def maker_of(path: str, runs: Iterable[PastRun]) -> PastRun | None:
     """Return the last run with this file among its results."""
     return next((run for run in reversed(list(runs)) if run.made(path)), None)
 
 
-def chain_to(path: str, runs: Sequence[Run]) -> list[Run]:
+def chain_to(path: str, runs: Sequence[PastRun]) -> list[PastRun]:
     """Return the runs that led to a file, from the one that classified points."""
-    chain: list[Run] = []
+    chain: list[PastRun] = []
     while path and (run := maker_of(path, runs)) is not None:
         chain.insert(0, run)
         runs, path = runs[: runs.index(run)], run.path("INPUT")
@@ -163,8 +163,8 @@ def sources_of(places: str, project: QgsProject) -> Sources:
     chain = chain_to(places, runs_of(project))
     if not chain:
         return Sources()
-    review = chain[-1] if chain[-1].is_review else Run("", {}, {})
-    maker = next((run for run in reversed(chain) if not run.is_review), Run("", {}, {}))
+    review = chain[-1] if chain[-1].is_review else PastRun("", {}, {})
+    maker = next((run for run in reversed(chain) if not run.is_review), PastRun("", {}, {}))
     return Sources(
         review.path("POINTS") or maker.cloud,
         review.path("DTM") or maker.path("DTM"),

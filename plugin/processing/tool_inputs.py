@@ -74,7 +74,7 @@ _ATTRIBUTES = {
 }  # fmt: skip
 
 
-class Given(NamedTuple):
+class GivenInput(NamedTuple):
     """The value of an input in a dialog."""
 
     value: object  # as the tool gets it; None for an empty field
@@ -158,12 +158,12 @@ def add_input(algorithm: BareEarthAlgorithm, declared: Input) -> None:
     algorithm.addParameter(field, with_note(declared.help, helps.get(declared.kind, "")))
 
 
-def given(request: Request, declared: Input) -> Given:
+def given(request: Request, declared: Input) -> GivenInput:
     """Return the value of an input in a dialog; refuse unsuitable values."""
     return _READERS[declared.kind](request, declared)
 
 
-def _cloud(request: Request, declared: Input) -> Given:
+def _cloud(request: Request, declared: Input) -> GivenInput:
     algorithm, parameters, context, _ = request
     if declared.optional:
         return _optional_cloud(request, declared)
@@ -171,47 +171,47 @@ def _cloud(request: Request, declared: Input) -> Given:
     return _of_sources([source], is_one=declared.kind == "cloud")
 
 
-def _optional_cloud(request: Request, declared: Input) -> Given:
+def _optional_cloud(request: Request, declared: Input) -> GivenInput:
     """Return the value for points that are an option of the command, and are never downloaded."""
     if request.is_empty(declared):
-        return Given(None)
+        return GivenInput(None)
     algorithm, parameters, context, _ = request
     source = source_of(algorithm, parameters, declared.field_name, context)
     if isinstance(source, Remote):
         raise Refusal(mark("{} is not on this computer. Choose a file."), names_of([source]))
-    return Given(source, {declared.name: str(source)})
+    return GivenInput(source, {declared.name: str(source)})
 
 
-def _address(request: Request, declared: Input) -> Given:
+def _address(request: Request, declared: Input) -> GivenInput:
     found = _cloud(request, declared)
     return found._replace(value=found.remotes[0].address if found.remotes else str(found.paths[0]))
 
 
-def _files(request: Request, declared: Input) -> Given:
+def _files(request: Request, declared: Input) -> GivenInput:
     return _of_sources(clouds_of(request.algorithm, request.parameters, request.context))
 
 
-def _survey(request: Request, declared: Input) -> Given:
+def _survey(request: Request, declared: Input) -> GivenInput:
     return _of_sources(survey_of(request.algorithm, request.parameters, request.context))
 
 
-def _of_sources(sources: Sequence[Path | Remote], is_one: bool = False) -> Given:
+def _of_sources(sources: Sequence[Path | Remote], is_one: bool = False) -> GivenInput:
     """Return the value for point clouds, without remote ones, which are downloaded later."""
     remotes = tuple(source for source in sources if isinstance(source, Remote))
     paths = tuple(source for source in sources if isinstance(source, Path))
     value = next(iter(paths), None) if is_one else list(paths)
-    return Given(value, {}, tuple(map(words_of, sources)), paths, names_of(sources), remotes)
+    return GivenInput(value, {}, tuple(map(words_of, sources)), paths, names_of(sources), remotes)
 
 
-def _area(request: Request, declared: Input) -> Given:
+def _area(request: Request, declared: Input) -> GivenInput:
     area, is_known = part_of(request)
     if not is_known:
         request.progress.info(
             "In the command line the area is missing: save it as boundary.geojson, and add"
             " --boundary boundary.geojson."
         )
-        return Given(area)
-    return Given(area, area_options(area, request.file_in("BOUNDARY"), request.progress))
+        return GivenInput(area)
+    return GivenInput(area, area_options(area, request.file_in("BOUNDARY"), request.progress))
 
 
 def part_of(request: Request) -> tuple[Area | None, bool]:
@@ -225,7 +225,7 @@ def part_of(request: Request) -> tuple[Area | None, bool]:
     return area_of(algorithm, parameters, context, _crs_of(request)), True
 
 
-def _target(request: Request, declared: Input) -> Given:
+def _target(request: Request, declared: Input) -> GivenInput:
     algorithm, parameters, context, _ = request
     like = extent = None
     if not compat.is_empty(parameters.get("LIKE")):
@@ -234,13 +234,13 @@ def _target(request: Request, declared: Input) -> Given:
     if not compat.is_empty(parameters.get("RASTER_EXTENT")):
         extent = box_of(algorithm, parameters, "RASTER_EXTENT", context, _crs_of(request))
     options = {"like": like, "raster-extent": extent and tuple(map(repr, extent))}
-    return Given(RasterTarget(like, extent), options)
+    return GivenInput(RasterTarget(like, extent), options)
 
 
-def _corrections(request: Request, declared: Input) -> Given:
+def _corrections(request: Request, declared: Input) -> GivenInput:
     algorithm, parameters, context, progress = request
     if request.is_empty(declared):
-        return Given(NO_CORRECTIONS)
+        return GivenInput(NO_CORRECTIONS)
     layer = declared.field_name
     asked = algorithm.parameterAsString(parameters, "CORRECTIONS_FIELD", context) or CLASS_FIELD
     source = algorithm.parameterAsSource(parameters, layer, context)
@@ -261,10 +261,10 @@ def _corrections(request: Request, declared: Input) -> Given:
     polygons, rows = zip(*shapes) if shapes else ((), ())
     classes, answers = (tuple(value_of(row, one) for row in rows) for one in (name, answer))
     found = Corrections(polygons, classes, answers, tuple(map(plain_values, rows)))
-    return Given(found, {declared.name: file})
+    return GivenInput(found, {declared.name: file})
 
 
-def _constraints(request: Request, declared: Input) -> Given:
+def _constraints(request: Request, declared: Input) -> GivenInput:
     algorithm, parameters, context, progress = request
     shapes: dict[str, Any] = {}  # of lines or of polygons
     for part in GROUPS[declared.kind]:
@@ -279,7 +279,7 @@ def _constraints(request: Request, declared: Input) -> Given:
             "In the command line some layers are missing: save each in the CRS of the points as"
             f" GeoJSON, and add {' '.join(f'--{name} {name}.geojson' for name in names)}."
         )
-    return Given(Constraints(**shapes), files)
+    return GivenInput(Constraints(**shapes), files)
 
 
 def _crs_of(request: Request) -> CloudCrs:
@@ -296,55 +296,55 @@ def _crs_of(request: Request) -> CloudCrs:
     return algorithm.crs_of(*algorithm.inputs, recursive=recursive)
 
 
-def _raster(request: Request, declared: Input) -> Given:
+def _raster(request: Request, declared: Input) -> GivenInput:
     if declared.optional and request.is_empty(declared):
-        return Given(None)
+        return GivenInput(None)
     algorithm, parameters, context, _ = request
     refusal = _NO_FILES.get(declared.name, _NO_FILE)
     layer = raster_of(algorithm, parameters, declared.field_name, context, refusal)
     source = layer.source()
     if declared.optional:
-        return Given(source, {declared.name: source})
-    return Given(source, {}, (source,), (Path(source),), layer.name())
+        return GivenInput(source, {declared.name: source})
+    return GivenInput(source, {}, (source,), (Path(source),), layer.name())
 
 
-def _terrain(request: Request, declared: Input) -> Given:
+def _terrain(request: Request, declared: Input) -> GivenInput:
     algorithm, parameters, context, _ = request
     source, name = terrain_of(algorithm, parameters, declared.field_name, context)
-    return Given(source, {}, (source,), (Path(source),), name)
+    return GivenInput(source, {}, (source,), (Path(source),), name)
 
 
-def _crs(request: Request, declared: Input) -> Given:
-    return Given(request.algorithm.stated, {"crs": request.algorithm.stated})
+def _crs(request: Request, declared: Input) -> GivenInput:
+    return GivenInput(request.algorithm.stated, {"crs": request.algorithm.stated})
 
 
-def _extent(request: Request, declared: Input) -> Given:
+def _extent(request: Request, declared: Input) -> GivenInput:
     if request.is_empty(declared):
-        return Given(None)
+        return GivenInput(None)
     algorithm, parameters, context, _ = request
     crs = algorithm.crs_of(*algorithm.inputs)
     box = box_of(algorithm, parameters, declared.field_name, context, crs)
-    return Given(box, {declared.name: tuple(map(repr, box))})
+    return GivenInput(box, {declared.name: tuple(map(repr, box))})
 
 
-def _words(request: Request, declared: Input) -> Given:
+def _words(request: Request, declared: Input) -> GivenInput:
     algorithm, parameters, context, _ = request
     text = algorithm.parameterAsString(parameters, declared.field_name, context)
     words = tuple(word for part in text.split(",") if (word := part.strip()))
-    return Given(words, {declared.name: words})
+    return GivenInput(words, {declared.name: words})
 
 
-def _checkpoints(request: Request, declared: Input) -> Given:
+def _checkpoints(request: Request, declared: Input) -> GivenInput:
     algorithm, parameters, context, progress = request
     crs = algorithm.crs_of(*algorithm.inputs)
-    return Given(*checkpoints_of(algorithm, parameters, context, crs, progress))
+    return GivenInput(*checkpoints_of(algorithm, parameters, context, crs, progress))
 
 
-def _polygons(request: Request, declared: Input) -> Given:
+def _polygons(request: Request, declared: Input) -> GivenInput:
     if declared.optional and request.is_empty(declared):
-        return Given(declared.of(()))
+        return GivenInput(declared.of(()))
     if declared.found and request.is_empty(declared):
-        return Given(ToFind(), {declared.name: "automatic"})
+        return GivenInput(ToFind(), {declared.name: "automatic"})
     algorithm, parameters, context, progress = request
     file = request.file_in(declared.field_name)
     if not file:
@@ -359,10 +359,10 @@ def _polygons(request: Request, declared: Input) -> Given:
         algorithm, parameters, *field, context, crs, may_be_empty=declared.may_be_empty
     )
     polygons = tuple(rings for rings, _ in shapes)
-    return Given(declared.of(polygons), {declared.name: file})
+    return GivenInput(declared.of(polygons), {declared.name: file})
 
 
-_READERS: dict[str, Callable[[Request, Input], Given]] = {
+_READERS: dict[str, Callable[[Request, Input], GivenInput]] = {
     "cloud": _cloud, "clouds": _cloud, "address": _address, "raster": _raster, "crs": _crs,
     "terrain": _terrain,
     "extent": _extent, "words": _words, "checkpoints": _checkpoints, "polygons": _polygons,

@@ -41,7 +41,7 @@ from .inputs import ignored_filter
 from .one_run import refuse_two_runs
 from .outputs import after_cancel, cannot_show, do_not_load, is_blank, point_cloud_formats
 from .remote import LIMIT, add_remote
-from .tool_inputs import Given, Request, add_input, given, part_of
+from .tool_inputs import GivenInput, Request, add_input, given, part_of
 
 # Inputs of these kinds, which name the run, are read first; `_LATE` ones when the work begins.
 _CLOUDS = ("cloud", "clouds", "files", "survey")
@@ -74,7 +74,7 @@ class ToolAlgorithm(BareEarthAlgorithm):
         self.run_name, self.shown, self.words = tool.run_name, tool.shown, tool.words
         self._inputs = [declared for declared in tool.all_inputs if declared.label]
         self._outputs = [output for output in tool.all_outputs if output.label]
-        self._given: dict[str, Given] = {}
+        self._given: dict[str, GivenInput] = {}
 
     @property
     def command(self) -> str:
@@ -202,7 +202,7 @@ class ToolAlgorithm(BareEarthAlgorithm):
             return
         # Imported here, so that QGIS starts faster.
         from ...algorithms.library.remote_points import SHARE, margin_of, stated_crs
-        from ...algorithms.remote.cache import Surroundings, bring_all, cache_of
+        from ...algorithms.remote.cache import AreaAround, bring_all, cache_of
         from ...algorithms.remote.fetching import Wanted
 
         # Without a field for an area, the downloaded part is all that is used.
@@ -215,7 +215,7 @@ class ToolAlgorithm(BareEarthAlgorithm):
             if self._tool.looks_around:
                 margin = margin_of(self.chosen(parameters, context), is_alone)
         crs, limit = stated_crs(self.stated), self.parameterAsDouble(parameters, LIMIT, context)
-        part = Surroundings(area.box, area.polygons, margin, crs)
+        part = AreaAround(area.box, area.polygons, margin, crs)
         is_measured = self._tool.looks_around
         wanted = Wanted(part, most=limit * 1e9, crs=crs, is_measured=is_measured)
         sources: dict[str, list[str | Path]] = {
@@ -428,7 +428,7 @@ class PointToolAlgorithm(ToolAlgorithm):
         chosen: list[ParameterSet],
         found: TileSummary | SurveySummary,
         numbers: dict[str, float],
-    ) -> layers.Look:
+    ) -> layers.LayerLook:
         """Return the look of the written points."""
         if self._tool.shows != "heights":
             return layers.classes(found.class_counts, _TITLES[self._tool.shows])

@@ -11,14 +11,14 @@ from qgis.PyQt.QtCore import QObject, QTimer
 
 from ...algorithms.classes.corrections import Corrections
 from ...algorithms.core.errors import BareEarthError
-from ...algorithms.rasters.geotiff import Raster, read_raster
+from ...algorithms.rasters.geotiff import HeightBand, read_raster
 from ...algorithms.tools.contours import corners_of
 from ...algorithms.tools.review.answered import changes_of
 from ...algorithms.tools.review.places import Rasters
 from ..i18n import tr
-from ..processing.runs import Run, Sources, runs_of
+from ..processing.runs import PastRun, Sources, runs_of
 from ..styles.loaded import file_of
-from .session import GROUND, NOT_GROUND, Place, Session, has_places
+from .session import GROUND, NOT_GROUND, ReviewPlace, Session, has_places
 
 _SEEN = 15  # cells round the largest change that its link shows
 # Of a classification where no run is known.
@@ -32,7 +32,7 @@ class Again(QObject):
         super().__init__()
         self._runs, self._done = list(sources.runs), done
         self._is_known = bool(self._runs)
-        self._runs = self._runs or [Run(_USUAL, {"INPUT": sources.cloud}, {})]
+        self._runs = self._runs or [PastRun(_USUAL, {"INPUT": sources.cloud}, {})]
         self._layer, self._places = session.layer.id(), list(session.places)
         self._corrections = _with_own(self._layer, self._runs[0])
         self._before, self._dtm = _read(sources.dtm), ""
@@ -58,7 +58,7 @@ class Again(QObject):
         path = str(layer and file_of(layer)) if layer else value
         return self._made.get(path, value) if isinstance(path, str) else value
 
-    def _ended(self, run: Run, is_done: bool, results: Mapping[str, Any]) -> None:
+    def _ended(self, run: PastRun, is_done: bool, results: Mapping[str, Any]) -> None:
         """Go on with the next run, or tell what changed."""
         if not is_done:
             return
@@ -71,7 +71,7 @@ class Again(QObject):
             self._done(text_of(self._before, _read(self._dtm), self._places))
 
 
-def _with_own(layer: str, run: Run) -> str:
+def _with_own(layer: str, run: PastRun) -> str:
     """Return a layer of places; together with the user's own corrections, if runs had any."""
     from qgis import processing
 
@@ -89,7 +89,7 @@ def _with_own(layer: str, run: Run) -> str:
     return layer
 
 
-def _read(path: str) -> Raster | None:
+def _read(path: str) -> HeightBand | None:
     """Return a terrain model; None if it is missing or can't be read."""
     try:
         return read_raster(path) if path else None
@@ -97,7 +97,9 @@ def _read(path: str) -> Raster | None:
         return None
 
 
-def text_of(before: Raster | None, after: Raster | None, places: Sequence[Place]) -> str:
+def text_of(
+    before: HeightBand | None, after: HeightBand | None, places: Sequence[ReviewPlace]
+) -> str:
     """Return in words what answers changed in the terrain, with links to the places."""
     if before is None or after is None:
         return tr("What changed is not known: one of the two runs has no terrain model.")

@@ -39,12 +39,12 @@ from ..processing.inputs import name_of
 from ..processing.runs import Sources, runs_of, sources_of
 from ..styles.loaded import file_of
 from .again import Again
-from .keys import Keys
-from .marks import Marks
+from .keys import ReviewKeys
+from .marks import PlaceMarks
 from .panel import Panel
 from .profile import Profile, ProfileView, is_dark
 from .reading import SAMPLES, PointsTask, sampler_of, values_along
-from .session import GROUND, Place, Session, has_places
+from .session import GROUND, ReviewPlace, Session, has_places
 
 _PANEL = 290  # pixels, least width of the panel beside the profile
 
@@ -71,8 +71,8 @@ class ReviewDock(QgsDockWidget):
         self.places, self.clouds = _box(), _box()
         self.legend = QLabel()
         self.legend.setWordWrap(True)
-        self._marks = Marks(self._canvas)
-        self._keys = Keys(
+        self._marks = PlaceMarks(self._canvas)
+        self._keys = ReviewKeys(
             self, self._canvas, lambda: self.isVisible() and self.session.place is not None,
             self.answer, self.step, self.undo,
         )  # fmt: skip
@@ -273,7 +273,7 @@ class ReviewDock(QgsDockWidget):
         if self.session.is_done and not self.panel.message.text():
             self.panel.message.setText(tr("All places are answered or skipped."))
 
-    def _question(self, place: Place) -> str:
+    def _question(self, place: ReviewPlace) -> str:
         """Return what to ask before a place becomes ground; empty if there is nothing to ask."""
         if self._task is not None:
             return tr(
@@ -333,7 +333,7 @@ class ReviewDock(QgsDockWidget):
         self.view.show_profile(profile)
         self.legend.setText(profile.legend(is_dark(self.view)) if profile else "")
 
-    def _profile(self, place: Place, layer: QgsVectorLayer) -> Profile:
+    def _profile(self, place: ReviewPlace, layer: QgsVectorLayer) -> Profile:
         x1, y1, x2, y2 = place.line
         length, points = math.hypot(x2 - x1, y2 - y1), self._points.get(place.feature)
         unit = QgsUnitTypes.toAbbreviatedString(layer.crs().mapUnits())

@@ -17,7 +17,7 @@ _STEPS = {Qt.Key.Key_PageUp: -1, Qt.Key.Key_PageDown: 1, Qt.Key.Key_Left: -1, Qt
 _UNDO = (Qt.Key.Key_U, Qt.Key.Key_Backspace)
 
 
-class Keys(QObject):
+class ReviewKeys(QObject):
     """Takes keys while a review is shown, before QGIS takes them as its shortcuts."""
 
     def __init__(

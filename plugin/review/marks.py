@@ -14,7 +14,7 @@ from qgis.gui import QgsMapCanvas, QgsMapCanvasItem, QgsRubberBand
 from qgis.PyQt.QtCore import QPointF, QRectF, Qt
 from qgis.PyQt.QtGui import QColor, QPainter
 
-from .session import Place
+from .session import ReviewPlace
 
 _LINE, _CASING = QColor("#1d1d1d"), QColor(255, 255, 255, 230)
 _OUTLINE = QColor("#ffd23f")
@@ -23,7 +23,7 @@ _RADIUS = 8.0  # pixels, of the discs with the letters of the ends
 _AROUND, _LEAST = 1.5, 30.0
 
 
-class Marks:
+class PlaceMarks:
     """Shows the current place on the map."""
 
     def __init__(self, canvas: QgsMapCanvas) -> None:
@@ -37,7 +37,7 @@ class Marks:
         self._discs = [_Disc(canvas, text) for text in ("A", "B", "")]
         self._ends: tuple[QgsPointXY, QgsPointXY] | None = None
 
-    def show(self, place: Place | None, layer: QgsVectorLayer | None) -> None:
+    def show(self, place: ReviewPlace | None, layer: QgsVectorLayer | None) -> None:
         """Show a place of a layer, or none."""
         for disc in self._discs:
             disc.hide()

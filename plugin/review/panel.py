@@ -19,7 +19,7 @@ from qgis.PyQt.QtWidgets import (
 from ..i18n import mark, tr
 from ..styles.reasons import in_own_language
 from ..styles.vectors import ANSWERS
-from .session import GROUND, NOT_GROUND, RIGHT, SKIP, Place, Session
+from .session import GROUND, NOT_GROUND, RIGHT, SKIP, ReviewPlace, Session
 
 # Texts of the buttons with their keys, and what the answers do.
 _TEXTS = {
@@ -128,7 +128,7 @@ class Panel(QWidget):
         self._figures.setText(_figures_of(place))
 
 
-def _figures_of(place: Place) -> str:
+def _figures_of(place: ReviewPlace) -> str:
     """Return the figures of a place in a line."""
     text = tr("Expected error up to {} m on {} m²").format(
         f"{place.error:.2f}", f"{place.area:,.0f}"

@@ -17,7 +17,7 @@ from ...algorithms.tools.review.lift import lifts_of
 from ...algorithms.tools.review.profile import ProfilePoints, points_along
 from ..i18n import tr
 from ..processing.runs import Sources
-from .session import Line, Place
+from .session import Line, ReviewPlace
 
 # The terrain along a line is sampled at this number of places.
 SAMPLES = 300
@@ -28,7 +28,7 @@ class PointsTask(QgsTask):
 
     along = pyqtSignal()  # the profiles are read
 
-    def __init__(self, sources: Sources, places: Sequence[Place]) -> None:
+    def __init__(self, sources: Sources, places: Sequence[ReviewPlace]) -> None:
         super().__init__(tr("Bare Earth: points of the places to review"), QgsTask.Flag.CanCancel)
         self._sources, self._places = sources, list(places)
         # By the id of the feature.

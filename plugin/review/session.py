@@ -24,7 +24,7 @@ _FIELDS = ("RANK", "REASON", *_NUMBERS, *_ENDS, ANSWER_FIELD)
 Line = Tuple[float, float, float, float]
 
 
-class Place(NamedTuple):
+class ReviewPlace(NamedTuple):
     """A place to review; lengths and heights as in the fields of the layer."""
 
     feature: int  # its id in the layer
@@ -80,7 +80,7 @@ class Session:
 
     def __init__(self, layer: QgsVectorLayer | None = None) -> None:
         self.layer: Any = layer  # None if it is gone: then there is no place
-        self.places: list[Place] = []
+        self.places: list[ReviewPlace] = []
         self.number = 0  # of the current place, from 0
         self._given: list[tuple[int, str]] = []  # numbers of places, and their answers before
         self.read()
@@ -95,7 +95,7 @@ class Session:
         self.number = min(self.number, max(len(self.places) - 1, 0))
 
     @property
-    def place(self) -> Place | None:
+    def place(self) -> ReviewPlace | None:
         """The current place."""
         return self.places[self.number] if self.places else None
 
@@ -165,7 +165,7 @@ class Session:
         self.layer.triggerRepaint()
 
 
-def _place_of(feature: QgsFeature) -> Place:
+def _place_of(feature: QgsFeature) -> ReviewPlace:
     fields = feature.fields()
     texts = {name: feature[fields.lookupField(name)] for name in _FIELDS}
     known = {name: value for name, value in texts.items() if not compat.is_null(value)}
@@ -175,4 +175,4 @@ def _place_of(feature: QgsFeature) -> Place:
     rank, reason = int(known.get("RANK", 0)), str(known.get("REASON", ""))
     answer, outline = str(known.get(ANSWER_FIELD, "")), QgsGeometry(feature.geometry())
     line = x1, y1, x2, y2
-    return Place(feature.id(), rank, reason, error, area, low, high, line, answer, outline)
+    return ReviewPlace(feature.id(), rank, reason, error, area, low, high, line, answer, outline)

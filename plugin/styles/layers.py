@@ -26,7 +26,7 @@ from ..i18n import mark, tr
 from . import clouds, rasters, vectors
 from .loaded import fresh_path, show_fresh_points
 from .metadata import Origin, describe
-from .stage import Stage, remember_height
+from .stage import LayerStage, remember_height
 
 # QGIS calls post-processors after the algorithm was deleted. It owns only their C++ objects, so
 # their Python objects are kept here.
@@ -48,7 +48,7 @@ _LOCAL = (
 )
 
 
-class Look(NamedTuple):
+class LayerLook(NamedTuple):
     """Title, place and style of a layer."""
 
     title: str  # in the group of the run, which has the name of the input
@@ -62,30 +62,33 @@ class Look(NamedTuple):
     has_legend: bool = True
 
 
-def _drawn(title: str, look: looks.Look) -> Look:
+def _drawn(title: str, look: looks.Look) -> LayerLook:
     """Return the look of a raster that is drawn as its row says."""
-    dress, has_legend = partial(rasters.draw, look.style), not isinstance(look.style, looks.Picture)
-    return Look(title, look.height, dress, look.hides, has_legend=has_legend)
+    dress, has_legend = (
+        partial(rasters.draw, look.style),
+        not isinstance(look.style, looks.PictureStyle),
+    )
+    return LayerLook(title, look.height, dress, look.hides, has_legend=has_legend)
 
 
 _SURFACE = RASTERS["dsm"].look
 # The only layer of its run, shown on top of other layers.
 BARE = _drawn(mark("Without objects"), _SURFACE._replace(height=1, hides=0))
-WATER = Look(mark("Water"), 9, vectors.water)
-BREAKLINES = Look(mark("Breaklines"), 10, vectors.breaklines)
-LOW_CONFIDENCE = Look(mark("Low confidence areas"), 8, vectors.low_confidence)
-PLACES = Look(mark("Places to review"), 10, vectors.places)
+WATER = LayerLook(mark("Water"), 9, vectors.water)
+BREAKLINES = LayerLook(mark("Breaklines"), 10, vectors.breaklines)
+LOW_CONFIDENCE = LayerLook(mark("Low confidence areas"), 8, vectors.low_confidence)
+PLACES = LayerLook(mark("Places to review"), 10, vectors.places)
 _EVEN = looks.Ramp(looks.CHANGES, is_even=True)
 CHANGE = _drawn(mark("Change of the ground"), looks.Look(_EVEN, 5, 1))
 LIMIT = _drawn(mark("Detection limit"), looks.Look(looks.Ramp(looks.ERRORS, low=0.0), 4, 1))
-CHANGED = Look(mark("Places of change"), 10, vectors.changes)
+CHANGED = LayerLook(mark("Places of change"), 10, vectors.changes)
 # Beside those of `RASTERS`.
 _OTHERS = {
     "ERROR_MAP": _drawn(mark("Errors"), looks.Look(looks.Ramp(looks.ERRORS, 0.0, 1.0), 6, 1)),
     "TERRAIN_WITH_BUILDINGS": _drawn(mark("Terrain with buildings"), _SURFACE),
 }
 # Of outputs of tools that are not rasters with a row, by the names in their declarations.
-_LOOKS: dict[str, Look | Callable[[Any], Look]] = {
+_LOOKS: dict[str, LayerLook | Callable[[Any], LayerLook]] = {
     "without objects": BARE,
     "water": WATER,
     "breaklines": BREAKLINES,
@@ -99,24 +102,24 @@ _LOOKS: dict[str, Look | Callable[[Any], Look]] = {
 }
 
 
-def raster_looks() -> dict[str, Look]:
+def raster_looks() -> dict[str, LayerLook]:
     """Return the looks of all rasters, by the names of their fields."""
     rows = {name.upper(): _drawn(row.title, row.look) for name, row in RASTERS.items()}
     return {**rows, **_OTHERS}
 
 
-def look_of(name: str, found: Any = None) -> Look:
+def look_of(name: str, found: Any = None) -> LayerLook:
     """Return the look with the name of a raster, or of `_LOOKS`, which may depend on the result of
     a tool.
     """
     if name in _LOOKS:
         look = _LOOKS[name]
-        return look if isinstance(look, Look) else look(found)
+        return look if isinstance(look, LayerLook) else look(found)
     row = RASTERS.get(name) or QUALITY_RASTERS[name]
     return _drawn(row.title, row.look)
 
 
-def in_crs(look: Look, crs: QgsCoordinateReferenceSystem) -> Look:
+def in_crs(look: LayerLook, crs: QgsCoordinateReferenceSystem) -> LayerLook:
     """Return the look of a point cloud whose file does not state its CRS, or a wrong one."""
 
     def dress(layer: QgsMapLayer) -> None:
@@ -127,7 +130,7 @@ def in_crs(look: Look, crs: QgsCoordinateReferenceSystem) -> Look:
     return look._replace(dress=dress)
 
 
-def first(look: Look) -> Look:
+def first(look: LayerLook) -> LayerLook:
     """Return the look of a layer that is visible at first, before all others that hide it."""
     return look._replace(hides=_FIRST) if look.hides else look
 
@@ -135,39 +138,39 @@ def first(look: Look) -> Look:
 CLASSES = mark("Classes")
 
 
-def classes(values: Iterable[int], title: str = CLASSES, hides: int = CLOUD) -> Look:
+def classes(values: Iterable[int], title: str = CLASSES, hides: int = CLOUD) -> LayerLook:
     """Return the look of a classified cloud."""
-    return Look(title, 7, clouds.by_class(values), hides)
+    return LayerLook(title, 7, clouds.by_class(values), hides)
 
 
-def class_raster(values: Iterable[int], hides: int = CLOUD) -> Look:
+def class_raster(values: Iterable[int], hides: int = CLOUD) -> LayerLook:
     """Return the look of a raster of classes."""
-    return Look(CLASSES, 7, rasters.classes(clouds.categories_of(values)), hides)
+    return LayerLook(CLASSES, 7, rasters.classes(clouds.categories_of(values)), hides)
 
 
-def heights(attribute: str, highest: float, unit_size: float) -> Look:
+def heights(attribute: str, highest: float, unit_size: float) -> LayerLook:
     """Return the look of a cloud with heights above ground; see `clouds.by_height`."""
     dress = clouds.by_height(attribute, highest, unit_size)
     shows = f"{tr('Height above ground')}, {unit_symbol(unit_size)}"
-    return Look(mark("Height above ground"), 7, dress, CLOUD, shows)
+    return LayerLook(mark("Height above ground"), 7, dress, CLOUD, shows)
 
 
-def contours(interval: Interval) -> Look:
+def contours(interval: Interval) -> LayerLook:
     """Return the look of contour lines."""
-    return Look(mark("Contour lines"), 9, vectors.contours(interval))
+    return LayerLook(mark("Contour lines"), 9, vectors.contours(interval))
 
 
-def residuals(scale: float) -> Look:
+def residuals(scale: float) -> LayerLook:
     """Return the look of errors at checkpoints; see `vectors.residuals`."""
-    return Look(mark("Errors at checkpoints"), 10, vectors.residuals(scale))
+    return LayerLook(mark("Errors at checkpoints"), 10, vectors.residuals(scale))
 
 
 def arrange(
     context: QgsProcessingContext,
-    looks: Mapping[str, Look],
+    looks: Mapping[str, LayerLook],
     labels: Mapping[str, str],
     subject: str,
-    stage: Stage,
+    stage: LayerStage,
     origin: Origin,
 ) -> None:
     """Give names, and looks by path, to the layers of a run, and a group if there are several."""
@@ -201,7 +204,7 @@ def _name(
     titles: Mapping[str, str],
     labels: Mapping[str, str],
     subject: str,
-    stage: Stage,
+    stage: LayerStage,
 ) -> set[str]:
     """Name layers by their titles, unless a model has named them, and return the renamed ones."""
     # Boxes in which layers are chosen show no groups: names say which input and run they belong to.
@@ -216,7 +219,9 @@ def _name(
     return named
 
 
-def _new(context: QgsProcessingContext, looks: Mapping[str, Look], stage: Stage) -> dict[str, Look]:
+def _new(
+    context: QgsProcessingContext, looks: Mapping[str, LayerLook], stage: LayerStage
+) -> dict[str, LayerLook]:
     """Return the layers that the project does not have yet; QGIS will load only these."""
     layers, new = context.layersToLoadOnCompletion(), {}
     for path, look in looks.items():
@@ -228,7 +233,7 @@ def _new(context: QgsProcessingContext, looks: Mapping[str, Look], stage: Stage)
     return new
 
 
-def looks_of(context: QgsProcessingContext) -> dict[str, Look]:
+def looks_of(context: QgsProcessingContext) -> dict[str, LayerLook]:
     """Return the looks of layers that steps of a model have arranged, by path."""
     loaded = context.layersToLoadOnCompletion()
     shows = {path: details.postProcessor() for path, details in loaded.items()}
@@ -238,7 +243,9 @@ def looks_of(context: QgsProcessingContext) -> dict[str, Look]:
 class _Show(QgsProcessingLayerPostProcessorInterface):
     """Gives a new layer its style, and its place unless QGIS itself has put it there."""
 
-    def __init__(self, look: Look, subject: str, stage: Stage | None, is_visible: bool) -> None:
+    def __init__(
+        self, look: LayerLook, subject: str, stage: LayerStage | None, is_visible: bool
+    ) -> None:
         super().__init__()
         self.look, self._subject = look, subject
         self._stage, self._is_visible = stage, is_visible
@@ -272,7 +279,7 @@ def _leave_degrees(project: QgsProject) -> None:
         project.setEllipsoid("NONE")  # lengths are those of the coordinates
 
 
-def _dress(look: Look, subject: str, project: QgsProject | None, layer: QgsMapLayer) -> None:
+def _dress(look: LayerLook, subject: str, project: QgsProject | None, layer: QgsMapLayer) -> None:
     """Set style and metadata of a layer, and the text of its legend."""
     look.dress(layer)
     if look.origin is not None:

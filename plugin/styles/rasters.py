@@ -23,7 +23,7 @@ from qgis.core import (
 from qgis.PyQt.QtGui import QColor, QPainter
 
 from ...algorithms.crs.system import unit_size
-from ...algorithms.rasters.looks import Categories, Picture, Ramp, Steps, Stops, Style
+from ...algorithms.rasters.looks import Categories, PictureStyle, Ramp, Steps, Stops, Style
 from .. import compat
 from ..i18n import tr
 from . import clouds
@@ -65,7 +65,7 @@ def draw(style: Style, layer: QgsRasterLayer) -> None:
             layer.setBlendMode(_MULTIPLY)
         if style.line:
             compat.mark_as_elevation(layer, style.line)
-    elif isinstance(style, Picture):
+    elif isinstance(style, PictureStyle):
         _show_bands(layer, style)
     elif isinstance(style, Categories):
         entries = {value: (tr(label), QColor(colour)) for value, label, colour in style.entries}
@@ -74,7 +74,7 @@ def draw(style: Style, layer: QgsRasterLayer) -> None:
         _step(layer, style)
 
 
-def _show_bands(layer: QgsRasterLayer, style: Picture) -> None:
+def _show_bands(layer: QgsRasterLayer, style: PictureStyle) -> None:
     """Show the bands as they are, or grey between limits."""
     provider = layer.dataProvider()
     if layer.bandCount() > 1:

@@ -21,7 +21,7 @@ from . import loaded
 _HEIGHT = "bare_earth/height"
 
 
-class Stage:
+class LayerStage:
     """The place of a run in the project, found before the run; an error says if a layer of its
     files has edits that are not saved.
     """

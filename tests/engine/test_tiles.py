@@ -50,7 +50,7 @@ from bare_earth.algorithms.survey.files import open_survey
 from bare_earth.algorithms.survey.vpc import read_vpc, write_vpc
 from bare_earth.algorithms.tools.ground import step as step_module
 from bare_earth.algorithms.tools.ground.method import TileMethod
-from bare_earth.algorithms.tools.ground.output import Output
+from bare_earth.algorithms.tools.ground.output import PointOutput
 from bare_earth.algorithms.tools.ground.step import LabelGround
 
 BLOCKS = Blocks(80.0, 30.0, most_points=2500)
@@ -556,7 +556,7 @@ def test_labelling_that_fails_fails_the_tiles_of_that_block_only(six, out, tmp_p
             return dataclasses.replace(job, output=output)
 
     blocks, workers = Blocks(20.0, 5.0), replacing_jobs(Threads, failing)
-    points = Output(height_above_ground=heights)
+    points = PointOutput(height_above_ground=heights)
     summary = classify_tiles([six], out, FAST, blocks=blocks, workers=workers, points=points)
     assert 0 < len(summary.failures) < 6
     assert all("Unexpected ValueError: no" in reason for reason in summary.failures.values())

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from bare_earth.algorithms.grids.bridge_relief import Relief
-from bare_earth.algorithms.grids.bridge_sections import Rule, Sections, raised_sections
+from bare_earth.algorithms.grids.bridge_relief import BridgeRelief
+from bare_earth.algorithms.grids.bridge_sections import SectionRule, Sections, raised_sections
 
-RULE = Rule(1.25, 1.0, True)
+RULE = SectionRule(1.25, 1.0, True)
 LENGTH, BORDER = 40, 12
 
 
@@ -19,7 +19,7 @@ def widest(profile, is_ground=None, rule=RULE):
     is_ground = np.isfinite(profile) if is_ground is None else is_ground
     heights, is_ground = (np.tile(value, (LENGTH, 1)) for value in (profile, is_ground))
     heights = np.pad(heights, BORDER, constant_values=np.nan)
-    relief = Relief(1.0, 1.0, BORDER, 0, 0.0, heights, np.pad(is_ground, BORDER))
+    relief = BridgeRelief(1.0, 1.0, BORDER, 0, 0.0, heights, np.pad(is_ground, BORDER))
     sections = raised_sections(relief, lambda relief: np.isfinite(relief.heights), rule)
     return int((sections.steps[sections.direction == 0] + 1).max(initial=0))
 
@@ -71,7 +71,7 @@ def test_no_ground_lies_on_the_middle_half_of_a_face(height, width):
     face = (height, 2)
     profile = profile_of(GROUND, face, (12.0, 8), face, GROUND)
     # The rule takes only what lies at the foot for lower.
-    assert widest(profile, rule=Rule(9.0, 1.0, True)) == width
+    assert widest(profile, rule=SectionRule(9.0, 1.0, True)) == width
 
 
 @pytest.mark.parametrize(

@@ -23,7 +23,7 @@ from bare_earth.algorithms.engine.store import Marks
 from bare_earth.algorithms.las.return_numbers import MULTI_RETURN, SeveralReturns
 from bare_earth.algorithms.survey.files import Inputs
 from bare_earth.algorithms.tools import map_tool
-from bare_earth.algorithms.tools.ground.output import Output
+from bare_earth.algorithms.tools.ground.output import PointOutput
 
 # The fastest filter, for tests that are not about what is ground: for functions and for commands.
 FAST = {"method": "slope", "preset": "whitebox"}
@@ -98,7 +98,7 @@ def environment():
 
 def classify_tiles(
     sources, folder, parameters, progress=Progress(), workers=None, blocks=None,
-    output=TileOutput(), points=Output(),
+    output=TileOutput(), points=PointOutput(),
 ):  # fmt: skip
     """Classify many files with workers and blocks that users cannot choose."""
     inputs = Inputs(sources, is_survey=True)

@@ -4,7 +4,7 @@ import numpy as np
 
 from bare_earth.algorithms.library import tools
 from bare_earth.algorithms.rasters.looks import GREY, Look, Ramp
-from bare_earth.algorithms.tools.rasters.rows import RASTERS, Raster
+from bare_earth.algorithms.tools.rasters.rows import RASTERS, RasterRow
 
 
 def _roughness(terrain, how):
@@ -15,7 +15,7 @@ def _roughness(terrain, how):
 
 
 NAME = "toy_roughness"
-ROW = Raster(
+ROW = RasterRow(
     "Roughness",
     "How far the heights around a cell differ, many times.",
     "Roughness, {unit}",

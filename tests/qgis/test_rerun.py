@@ -25,7 +25,7 @@ from qgis.PyQt.QtCore import QVariant
 from support import ALGORITHM, Log, colour_at, groups, layer_of, title_of, write_scene
 
 from bare_earth.plugin.styles import loaded
-from bare_earth.plugin.styles.stage import Stage
+from bare_earth.plugin.styles.stage import LayerStage
 
 COPC = "copc" in QgsProviderRegistry.instance().providerList()
 needs_copc = pytest.mark.skipif(not COPC, reason="this QGIS shows no point clouds")
@@ -305,7 +305,7 @@ def test_a_step_of_a_model_in_another_thread_releases_layers_too(
     context, stages = QgsProcessingContext(), []
     context.setProject(QgsProject.instance())
     step = threading.Thread(
-        target=lambda: stages.append(Stage(context, "model", [tmp_path / "dtm.tif"]))
+        target=lambda: stages.append(LayerStage(context, "model", [tmp_path / "dtm.tif"]))
     )
     step.start()
     while not is_busy and step.is_alive():

@@ -24,7 +24,7 @@ from windows import Qgis
 
 from bare_earth.algorithms.core.errors import BareEarthError
 from bare_earth.algorithms.core.points import Frame
-from bare_earth.algorithms.rasters.geotiff import Raster
+from bare_earth.algorithms.rasters.geotiff import HeightBand
 from bare_earth.plugin.processing.runs import Sources, sources_of
 from bare_earth.plugin.review.again import text_of
 from bare_earth.plugin.review.dock import ReviewDock
@@ -109,7 +109,7 @@ def test_a_layer_that_is_edited_or_read_only_says_so(places, monkeypatch):
 
 def terrain(heights):
     frame, place = Frame((0.0, 0.0), 1.0, 1.0), (WEST, 1.0, 0.0, SOUTH + 40.0, 0.0, -1.0)
-    return Raster(heights.astype(np.float32), place, frame, whole=heights.shape)
+    return HeightBand(heights.astype(np.float32), place, frame, whole=heights.shape)
 
 
 def test_what_changed_is_told_by_place(places):

@@ -12,7 +12,7 @@ from bare_earth import BareEarthError, Cancelled, Progress
 from bare_earth.algorithms.core.points import Frame, Points
 from bare_earth.algorithms.rasters import writing
 from bare_earth.algorithms.rasters.geotiff import NODATA, RasterGrid, read_raster
-from bare_earth.algorithms.rasters.sparse import Part
+from bare_earth.algorithms.rasters.sparse import RasterPart
 from bare_earth.algorithms.rasters.writing import RasterCells, write_geotiff
 
 rasterio = pytest.importorskip("rasterio")
@@ -157,7 +157,7 @@ def test_a_cancel_closes_the_cells_that_wait_on_disk_before_it_removes_them(tmp_
         remove(path, **named)
 
     def parts():
-        yield Part(0, 0, np.zeros((4, 9), np.uint8))
+        yield RasterPart(0, 0, np.zeros((4, 9), np.uint8))
         raise Cancelled
 
     monkeypatch.setattr(writing, "_MOST_IN_MEMORY", 10)

@@ -11,7 +11,7 @@ from bare_earth.algorithms.core.points import Frame
 from bare_earth.algorithms.core.progress import Progress
 from bare_earth.algorithms.rasters import content, geotiff, windows, writing
 from bare_earth.algorithms.rasters.geotiff import RasterGrid
-from bare_earth.algorithms.rasters.sparse import Part
+from bare_earth.algorithms.rasters.sparse import RasterPart
 from bare_earth.algorithms.rasters.writing import RasterCells, write_geotiff
 from bare_earth.algorithms.tools.rasters.class_raster import write_class_raster
 
@@ -219,7 +219,7 @@ def test_a_sparse_raster_has_its_cells_and_means_of_them(
         values = random.uniform(1.0, 200.0, (bands, rows, columns)).astype(kind)
         values[:, random.random((rows, columns)) < 0.3] = nodata
         whole[:, row : row + rows, column : column + columns] = values
-        parts.append(Part(row, column, values if bands > 1 else values[0]))
+        parts.append(RasterPart(row, column, values if bands > 1 else values[0]))
     cells = RasterCells(shape, kind, iter(parts), bands, made=200_000)
     grid = RasterGrid(500_000.0, 5_500_000.0, 1.0, *shape[::-1], Frame())
     path = tmp_path / "a.tif"

@@ -24,7 +24,8 @@ def read(tmp_path, text, columns=None, name="p.csv"):
     return read_checkpoints(tmp_path / name, columns)
 
 
-VEGETATED = """Forest|Nadelwald|brush land|VVA|Vegetated|tall grass|Forêt|Corn|Corn field|Maize|Wheat|Marsh
+VEGETATED = """Forest|Nadelwald|brush land|VVA|Vegetated|tall grass|Forêt|Corn|Corn field
+    |Maize|Wheat|Marsh
     |Swamp|Mangrove|Undergrowth|GRASS_TALL|Hecke|TallGrass|Tall weeds and crops
     |Brush lands and low trees|Woody Wetlands|Shrub/Scrub|Cultivated Crops|open woodland
     |Gravel/shrubs|under trees|VVA_12|Cornfield|Vegetated Vertical Accuracy|Tussock

@@ -11,7 +11,7 @@ import numpy as np
 from ...core.points import Points
 from ...grids.cells import Cells, cells_at, first_of_each, spacing
 from ...grids.morphology import within_square
-from ..lowest_planes import LowestOfCells, Surroundings
+from ..lowest_planes import LowestNeighbours, LowestOfCells
 from ..pipeline import PointRule, Stage
 from ..state import State
 
@@ -84,7 +84,7 @@ class LowGroups(PointRule):
         ]
         return self._members(points, cells, groups)
 
-    def _groups(self, around: Surroundings) -> Iterator[Group]:
+    def _groups(self, around: LowestNeighbours) -> Iterator[Group]:
         """Yield the groups at the places whose surroundings show that they are low."""
         plane, misfit = around.plane()
         depth = plane[:, 2]
@@ -267,7 +267,7 @@ class BelowWater(PointRule):
         beside = within_square(np.maximum, highest.reshape(cells.shape), 1)
         return deepest.reshape(cells.shape) < beside - self.depth
 
-    def _limits(self, around: Surroundings) -> np.ndarray:
+    def _limits(self, around: LowestNeighbours) -> np.ndarray:
         """Return the height below which points are noise at each place; -inf without water."""
         z = np.sort(np.where(around.known, around.z, np.inf), axis=1)
         known = np.count_nonzero(around.known, axis=1)

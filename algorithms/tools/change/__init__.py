@@ -16,11 +16,11 @@ from ...core.words import counted
 from ...engine.memory import Resources
 from ...rasters.content import Source
 from ...rasters.geotiff import NODATA
-from ...rasters.sparse import Part
+from ...rasters.sparse import RasterPart
 from ...rasters.writing import RasterCells, write_geotiff
 from ...report.units import Units
 from ...survey.area import Polygon
-from ...survey.feature_files import Feature, Layer, feature_writer
+from ...survey.feature_files import Feature, FeatureLayer, feature_writer
 from ...survey.files import Inputs
 from ..contours import corners_of
 from ..declaration import CLOUD, RASTER, TERRAIN, FileTool, Input, Output
@@ -29,7 +29,7 @@ from ..rasters.parameters import TerrainModel
 from .judged import SAME, judged
 from .page import Found, change_html
 from .pair import Given, Pair, Strip, pair_of
-from .places import Place, Places, limits_of, places_of
+from .places import ChangePlace, Places, limits_of, places_of
 from .stable import Alignment, aligned, sample_of, scatter_of
 
 # Metres of which the summary tells in which share of the area such a change could be told.
@@ -175,7 +175,7 @@ def change(
         _write_rasters(found, (difference, limit), write, no_data, progress.part(0.9, 0.97))
         if places is not None:
             grid = found.pair.grid
-            layer = Layer("change", "Polygon", _FIELDS, grid.frame.wkt, grid.crs.epsg)
+            layer = FeatureLayer("change", "Polygon", _FIELDS, grid.frame.wkt, grid.crs.epsg)
             feature_writer(places)(places, features_of(found), layer, progress)
         if page is not None:
             frame = found.pair.grid.frame
@@ -232,7 +232,7 @@ def _summary(found: Found, left_out: int) -> ChangeSummary:
     )
 
 
-def _volume(places: Sequence[Place], alignment: Alignment) -> tuple[float, float]:
+def _volume(places: Sequence[ChangePlace], alignment: Alignment) -> tuple[float, float]:
     """Return the volume of places, positive, and its error: that of the alignment is the same in
     all of them, the others are independent.
     """
@@ -260,11 +260,11 @@ def _write_rasters(
         limits = limits_of(found.scatter, alignment, strip.spread, slope)
         return np.where(np.isnan(strip.change), np.nan, limits)
 
-    def parts(of: Callable[[Strip], np.ndarray], part: Progress) -> Iterator[Part]:
+    def parts(of: Callable[[Strip], np.ndarray], part: Progress) -> Iterator[RasterPart]:
         for strip in pair.strips(part):
             values = of(strip)[strip.own] / unit
             cells = np.where(np.isnan(values), no_data, values).astype(np.float32)
-            yield Part(strip.row + strip.own.start, 0, cells)
+            yield RasterPart(strip.row + strip.own.start, 0, cells)
 
     shown = "Change of the ground, {unit}", "Detection limit (95 %), {unit}"
     for path, of, shows, part in zip(paths, (change_of, limit_of), shown, progress.shares(1, 1)):

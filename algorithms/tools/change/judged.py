@@ -11,7 +11,7 @@ from ...las.cloud import PointCloud
 from ...survey.files import Inputs
 from ...survey.window import taken_near
 from .pair import Pair
-from .places import Place
+from .places import ChangePlace
 from .stable import Alignment
 
 EARTH = "earth"
@@ -40,10 +40,10 @@ _ROUGH = 0.25  # share of the change by which cells of plants differ from their 
 def judged(
     pair: Pair,
     alignment: Alignment,
-    places: Sequence[Place],
+    places: Sequence[ChangePlace],
     clouds: Sequence[Inputs | None],
     progress: Progress,
-) -> list[Place]:
+) -> list[ChangePlace]:
     """Return the places with what they probably are."""
     kinds = [_by_shape(pair, alignment, place) for place in places]
     if places and any(cloud is not None for cloud in clouds):
@@ -60,7 +60,7 @@ class _Witnesses:
     """The points of one date at the terrain of the other."""
 
     def __init__(
-        self, pair: Pair, alignment: Alignment, places: Sequence[Place], is_new: bool
+        self, pair: Pair, alignment: Alignment, places: Sequence[ChangePlace], is_new: bool
     ) -> None:
         self._pair, self._alignment, self._places, self._is_new = pair, alignment, places, is_new
         rows, columns, old, change = (
@@ -119,7 +119,7 @@ class _Witnesses:
         self._is_there[place[np.abs(z - self._terrain[place]) <= off]] = True
 
 
-def _by_shape(pair: Pair, alignment: Alignment, place: Place) -> str:
+def _by_shape(pair: Pair, alignment: Alignment, place: ChangePlace) -> str:
     """Return what a place probably is, by its surroundings and its edge."""
     from scipy import ndimage
 

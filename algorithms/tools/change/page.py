@@ -22,13 +22,13 @@ from ...report.page import (
     table,
 )
 from ...report.pictures import Picture, ramped, reduced, rgb
-from ...report.profile_chart import Dots, Line, profile_chart
+from ...report.profile_chart import ChartLine, Dots, profile_chart
 from ...report.units import Units
 from ...survey.files import Inputs
 from ..contours import corners_of
 from ..review.profile import ProfilePoints, points_along
 from .pair import Pair
-from .places import Place
+from .places import ChangePlace
 from .stable import Alignment, Sample, Scatter
 
 _SHOWN = 10  # places in the table, of which the first have profiles
@@ -50,7 +50,7 @@ class Found(NamedTuple):
     sample: Sample
     alignment: Alignment
     scatter: Scatter
-    places: list[Place]
+    places: list[ChangePlace]
 
 
 def change_html(
@@ -156,7 +156,7 @@ def _profiles(found: Found, clouds: Sequence[Inputs | None], units: Units) -> It
         yield paragraph(keys(colours[:count], names[:count]))
 
 
-def _line_of(place: Place) -> np.ndarray:
+def _line_of(place: ChangePlace) -> np.ndarray:
     """Return the ends of the profile of a place, row and column, from west to east through its
     largest change, along its shorter side.
     """
@@ -198,7 +198,7 @@ def _profile(
     heights = np.interp(fine, along, (new - taken) / up)
     known = np.isfinite(heights)
     dots.append(Dots(fine[known], heights[known], _NEW))
-    first = Line(along, old / up, (old - limit) / up, (old + limit) / up, (_OLD, _BAND))
+    first = ChartLine(along, old / up, (old - limit) / up, (old + limit) / up, (_OLD, _BAND))
     known = [
         Dots(d.along[np.isfinite(d.heights)], d.heights[np.isfinite(d.heights)], d.colour)
         for d in dots

@@ -21,7 +21,7 @@ from ...engine.step import Step
 from ...grids.gradient import gradient, length
 from ...rasters.cell_grid import RasterTarget
 from ...rasters.content import NO_CELLS, MemoryRaster, Source
-from ...rasters.geotiff import Raster, read_raster
+from ...rasters.geotiff import HeightBand, read_raster
 from ...rasters.sampling import HeightRaster, HeightSampler
 from ...rasters.windows import RasterWindows, Window, Windows
 from ...survey.files import Inputs, is_cloud
@@ -68,7 +68,7 @@ class Strip(NamedTuple):
 class Pair(NamedTuple):
     """Two terrains on one grid; windows in metres, NaN for no value."""
 
-    grid: Raster  # whose cells all of them have
+    grid: HeightBand  # whose cells all of them have
     old: Windows
     new: Windows
     errors: tuple[Windows, Windows] | None  # the expected errors of both
@@ -128,7 +128,11 @@ class _Sampled:
     """Heights of a raster at the cells of another grid, in metres, moved by units of the CRS."""
 
     def __init__(
-        self, source: Source, grid: Raster, factor: float, move: tuple[float, float] = (0.0, 0.0)
+        self,
+        source: Source,
+        grid: HeightBand,
+        factor: float,
+        move: tuple[float, float] = (0.0, 0.0),
     ) -> None:
         self.shape, self._grid, self._factor = grid.whole, grid, factor
         self.source, self._move = source, move
@@ -153,7 +157,7 @@ class _Sampled:
         return (heights * self._factor).astype(np.float32)
 
 
-def _moved(windows: Windows, grid: Raster, move: tuple[float, float]) -> Windows:
+def _moved(windows: Windows, grid: HeightBand, move: tuple[float, float]) -> Windows:
     if isinstance(windows, _Sampled):
         return windows.moved(move)
     of = windows.raster  # type: ignore[attr-defined]
@@ -258,7 +262,7 @@ def _on_one_grid(
     return Pair(grid, old, new, (errors[0], errors[1]) if errors else None)
 
 
-def _windows(source: Source, raster: Raster, grid: Raster) -> Windows:
+def _windows(source: Source, raster: HeightBand, grid: HeightBand) -> Windows:
     """Return the cells of a raster on a grid, in metres."""
     unit = raster.frame.vertical_unit
     if is_same_grid(raster, grid):

@@ -37,7 +37,7 @@ class Places(ParameterSet):
     )
 
 
-class Place(NamedTuple):
+class ChangePlace(NamedTuple):
     """A connected place that rose or sank; arrays (n,) of its cells."""
 
     rows: np.ndarray
@@ -102,7 +102,7 @@ def limits_of(
 
 def places_of(
     pair: Pair, alignment: Alignment, scatter: Scatter, how: Places, progress: Progress
-) -> list[Place]:
+) -> list[ChangePlace]:
     """Return the places of significant change, those with the largest volume first."""
     places = []
     cells = list(_cells_over(pair, alignment, scatter, how, progress))
@@ -147,7 +147,7 @@ def _joined(
     alignment: Alignment,
     cells: np.ndarray,
     *values: np.ndarray,
-) -> list[Place]:
+) -> list[ChangePlace]:
     """Return the connected cells as places, those that are significant as a whole."""
     if not len(cells):
         return []
@@ -158,7 +158,7 @@ def _joined(
     for some in np.split(order, ends):
         rows, columns = np.divmod(cells[some], pair.grid.whole[1])
         old, change, limit, is_over = (value[some] for value in values)
-        place = Place(rows, columns, old, change, limit, is_over, pair.cell, 0.0)
+        place = ChangePlace(rows, columns, old, change, limit, is_over, pair.cell, 0.0)
         core = float(np.count_nonzero(place.is_over)) * pair.cell**2
         share = scatter.share_of_mean(np.array([core, place.area]))
         mean = float(np.mean((np.abs(place.change) / place.limit)[place.is_over])) * LIMIT

@@ -29,7 +29,7 @@ _EMPTY = ("", "-", "--", "nan", "null", "none", "n/a", "na", "#n/a", "nodata", "
 _SAME = 0.002
 
 
-class Record(NamedTuple):
+class CheckpointRow(NamedTuple):
     """A row of a table, or a point of a layer."""
 
     where: str  # the row, for messages
@@ -52,7 +52,7 @@ def read_checkpoints(path: Any, columns: str | None = None, crs: str | None = No
         if table.names is None:
             usual = places_without_names(table.rows)
         records = [
-            Record(f"Line {number} of {path}", (*row, *[""] * (len(names) - len(row))))
+            CheckpointRow(f"Line {number} of {path}", (*row, *[""] * (len(names) - len(row))))
             for number, row in zip(table.numbers, table.rows)
         ]
     else:
@@ -61,7 +61,7 @@ def read_checkpoints(path: Any, columns: str | None = None, crs: str | None = No
         stated = getattr(points, "crs", None)
         names = list(dict.fromkeys(name for _, attributes in points for name in attributes))
         records = [
-            Record(
+            CheckpointRow(
                 f"Point {number} of {path}",
                 tuple(value_of(attributes, name) for name in names),
                 place,
@@ -73,7 +73,7 @@ def read_checkpoints(path: Any, columns: str | None = None, crs: str | None = No
 
 def checkpoints_of_rows(
     names: Sequence[str],  # of the columns
-    records: Sequence[Record],  # at least one
+    records: Sequence[CheckpointRow],  # at least one
     chosen: Mapping[str, str],  # columns of x, y, z, cover, type and name
     path: str,
     usual: Mapping[str, int] | None = None,  # columns of a table without names
@@ -113,7 +113,7 @@ class _Rows(NamedTuple):
     """Rows, and the columns that can hold each role, the best first."""
 
     names: Sequence[str]
-    records: Sequence[Record]
+    records: Sequence[CheckpointRow]
     columns: Mapping[str, list[int]]
     has_chosen: bool  # whether the user chose the column of z
     path: str

@@ -14,7 +14,7 @@ from ...crs.system import Crs
 from ...crs.unit_names import FOOT
 from ...rasters.sampling import FAR_BELOW, HeightRaster, HeightSampler
 from ...survey.area import Area, Polygon
-from ...survey.feature_files import Feature, Layer
+from ...survey.feature_files import Feature, FeatureLayer
 from ...survey.files import Survey
 from ...survey.shapes import located
 from .checkpoints import Checkpoints, has_height
@@ -251,9 +251,9 @@ def _cause(offset: float) -> str:
     )
 
 
-def layer_of(found: Residuals, crs: Crs) -> tuple[Layer, Iterator[Feature]]:
+def layer_of(found: Residuals, crs: Crs) -> tuple[FeatureLayer, Iterator[Feature]]:
     """Return the checkpoints with their errors as a layer of points."""
-    layer = Layer("checkpoints", "Point Z", FIELDS, crs.wkt, crs.epsg)
+    layer = FeatureLayer("checkpoints", "Point Z", FIELDS, crs.wkt, crs.epsg)
     places = np.nan_to_num(found.xyz)[:, None]  # formats refuse NaN; the field Z is empty there
     return layer, (Feature(row[2:], place) for row, place in zip(found.rows(), places))
 

@@ -44,7 +44,7 @@ h3 { margin: 1.6em 0 .3em; font-size: 1.05em; }
 """
 
 
-class Figures(NamedTuple):
+class SettingFigures(NamedTuple):
     """Figures of a setting in the window, and commands that run it on all points."""
 
     name: str
@@ -63,13 +63,13 @@ class Figures(NamedTuple):
 
 def figures_of(
     window: Window, outcome: Outcome, first: Outcome, commands: tuple[str, str]
-) -> Figures:
+) -> SettingFigures:
     """Return the figures of a setting, compared with the first setting."""
     ground, before = outcome.ground[window.inside], first.ground[window.inside]
     apart = np.abs(outcome.terrain - first.terrain)
     apart = apart[np.isfinite(apart)]
     ground_count = int(np.count_nonzero(ground))
-    return Figures(
+    return SettingFigures(
         outcome.setting.name,
         outcome.setting.label,
         len(ground),
@@ -88,7 +88,7 @@ def comparison(
     notes: Sequence[str],  # on the pictures
     window: Window,
     outcomes: Sequence[Outcome],
-    figures: Sequence[Figures],
+    figures: Sequence[SettingFigures],
 ) -> str:
     """Return the page."""
     label, cell = outcomes[0].setting.label, window.units.length(window.cell_size)
@@ -135,7 +135,7 @@ def _size(window: Window) -> str:
     return f"{width / unit:.0f} x {height / unit:.0f} {window.units.across}, {metric}"
 
 
-def _table(window: Window, figures: Sequence[Figures]) -> tuple[Html, Html]:
+def _table(window: Window, figures: Sequence[SettingFigures]) -> tuple[Html, Html]:
     rows = []
     for number, setting in enumerate(figures):
         differences = ["first"] * 3
@@ -180,7 +180,7 @@ def _differences(window: Window, outcomes: Sequence[Outcome]) -> list[Html]:
     return pictures
 
 
-def _commands(figures: Figures) -> Html:
+def _commands(figures: SettingFigures) -> Html:
     parts = [
         element("h3", figures.label),
         element("pre", figures.shell),

@@ -25,7 +25,7 @@ from ..declaration import (
 from ..rasters.parameters import Gaps, RasterOutput, TerrainModel
 from ..rasters.tool import maps
 from .method import TileMethod
-from .output import Output as Written
+from .output import PointOutput as Written
 from .tool import TOOL
 
 

@@ -10,7 +10,7 @@ from ..heights import HEIGHT_DIMENSION
 
 
 @dataclass(frozen=True)
-class Output(ParameterSet):
+class PointOutput(ParameterSet):
     """What is written to a classified file."""
 
     ground_only: bool = parameter(

@@ -19,7 +19,7 @@ from ...core.parameters import ParameterSet
 from ...core.points import Box
 from ...core.progress import SILENT, Progress
 from ...core.words import counted
-from ...engine.blocks import Block, Blocks, Visit
+from ...engine.blocks import Blocks, PlaneBlock, Visit
 from ...engine.step import Allocate, PointResult, PointStep, Step, with_classes
 from ...engine.store import Marks, Store
 from ...filters import method_of
@@ -38,7 +38,7 @@ from .labelling import (
     tell,
     tell_of_continued,
 )
-from .output import Output
+from .output import PointOutput
 from .summary import Summary, tell_of_groundless_files
 
 
@@ -49,7 +49,7 @@ class LabelGround(PointStep):
     parameters: ParameterSet  # of one method, which their type chooses
     selection: Selection = field(default_factory=Selection)
     area: Area | None = None  # points outside keep their class; those near it are context
-    output: Output = field(default_factory=Output)  # which points are written
+    output: PointOutput = field(default_factory=PointOutput)  # which points are written
     cut: Blocks | None = None  # the blocks, if not those of the method
     corrections: Corrections = NO_CORRECTIONS  # beside the ones that the files remember
 
@@ -165,7 +165,9 @@ class LabelGround(PointStep):
         """Label the points of a block; see `labelled`."""
         return labelled(visit, self.parameters, self.selection, progress)
 
-    def end(self, store: Store, results: Sequence[tuple[Block, Any]], progress: Progress) -> None:
+    def end(
+        self, store: Store, results: Sequence[tuple[PlaneBlock, Any]], progress: Progress
+    ) -> None:
         """Report what was found in the blocks; refuse points without ground in any."""
         method = method_of(self.parameters)
         if store.has_known and not method.takes_known_ground:

@@ -25,7 +25,7 @@ from ..rasters.parameters import RasterOutput, SurfaceModel, TerrainModel
 from ..rasters.step import MakeRasters
 from ..rasters.tool import TARGET, maps, rasters_of
 from .method import TileMethod
-from .output import Output as Written
+from .output import PointOutput as Written
 from .step import LabelGround
 
 

@@ -27,7 +27,7 @@ _KEYS = ("places", "ground", "ground places", "returns")
 BYTES_A_POINT = 8 * len(_KEYS)
 
 
-class Keys:
+class PointKeys:
     """Collects keys of points, some of them equal."""
 
     def __init__(self, keys: np.ndarray) -> None:
@@ -67,7 +67,7 @@ class Tally:
         self.steep = 0  # points with an impossible scan angle
         self.has_colours = "red" in names
         self.brightest = 0  # the largest value of a colour
-        every = [Keys(scratch.array(name, (max(layout.count, 1),), "u8")) for name in _KEYS]
+        every = [PointKeys(scratch.array(name, (max(layout.count, 1),), "u8")) for name in _KEYS]
         self.places, self.ground, self.ground_places, self.returns = every
 
     def add(self, records: np.ndarray) -> None:

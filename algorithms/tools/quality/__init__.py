@@ -16,7 +16,7 @@ from ...las.cloud import survey_frame
 from ...survey.files import Inputs, Survey, open_survey
 from ...survey.repeated_points import RepeatedPoints
 from ..declaration import CLASSIFIED, CLOUD, CRS, TERRAIN, FileTool, Output
-from .cells import QualityCells, Store
+from .cells import QualityArrays, QualityCells
 from .figures import Quality
 from .grids import Grids
 from .low_confidence import write_areas
@@ -114,7 +114,7 @@ def _filled_cells(
     boxes = [piece.box_in_metres for piece in survey.pieces]
     grids = Grids.over(boxes, options.cell_size, spacing, options.void_distance)
     count = max(grid.window.rows * grid.window.columns for grid in (grids.fine, grids.spaced))
-    store = Store(work, count, sum(tile.count for tile in survey.tiles))
+    store = QualityArrays(work, count, sum(tile.count for tile in survey.tiles))
     repeated = RepeatedPoints(survey.tiles, store.array)
     made = MadePoints(survey, repeated.has_times, progress.part(0.02, 0.05))
     if made.all_synthetic and not asked.source:

@@ -51,7 +51,7 @@ LOW = (0.2, 2.0)
 _NEAR = 0.5
 
 
-class Store(ScratchArrays):
+class QualityArrays(ScratchArrays):
     """Creates arrays in memory, or in files of a temporary folder if cells or points are many; an
     error says if there are too many cells, or too little space on the disk.
     """
@@ -136,7 +136,7 @@ class QualityCells:
         self,
         grids: Grids,
         void: float,
-        store: Store,
+        store: QualityArrays,
         ground: GroundClasses,
         repeated: RepeatedPoints,
         made: MadePoints,

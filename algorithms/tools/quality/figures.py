@@ -17,7 +17,7 @@ _GROUND = 2
 _FEWEST_CELLS = 30
 
 
-class Line(NamedTuple):
+class ComparisonLine(NamedTuple):
     """A line of the comparison with a specification."""
 
     name: str  # what is compared
@@ -70,7 +70,7 @@ class Quality:
     strip_shares: list[float] | None = None
     # name, points, version, format, CRS, extent
     files: list[dict[str, Any]] = field(default_factory=list)
-    comparison: list[Line] = field(default_factory=list)  # with the specification
+    comparison: list[ComparisonLine] = field(default_factory=list)  # with the specification
 
     @property
     def passes(self) -> bool | None:
@@ -94,7 +94,7 @@ class Quality:
         return f"{passed}; not: {names}" if names else passed
 
     @property
-    def left(self) -> list[Line]:
+    def left(self) -> list[ComparisonLine]:
         """The comparisons that fail, and the ones that a person must look at."""
         return [line for line in self.comparison if line.state != PASSED]
 
@@ -231,7 +231,7 @@ FIGURES = (
 )  # fmt: skip
 
 
-def lines_of(found: Quality, asked: Specification) -> list[Line]:
+def lines_of(found: Quality, asked: Specification) -> list[ComparisonLine]:
     """Return the comparison of a survey with a specification."""
     lines = []
     for compare in (_densities, _strips, _classes, _formats):
@@ -239,7 +239,7 @@ def lines_of(found: Quality, asked: Specification) -> list[Line]:
             state = {True: PASSED, False: FAILED, None: LOOK}[passes]
             place = asked.places.get(key)
             source = f"{asked.source}: {place}" if place else ""
-            lines.append(Line(name, value, wanted, state, source))
+            lines.append(ComparisonLine(name, value, wanted, state, source))
     return lines
 
 

@@ -19,7 +19,7 @@ from ...core.points import Frame
 from ...core.progress import Progress
 from ...crs.system import Crs
 from ...grids.isolines import rings_of
-from ...survey.feature_files import Feature, Layer, feature_writer
+from ...survey.feature_files import Feature, FeatureLayer, feature_writer
 from .cells import BUILT, ROUGH, Make, QualityCells, Rectangle, twice
 
 # Share of the density of pulses: where the density of ground points is lower, confidence is low.
@@ -148,7 +148,7 @@ def write_areas(
     path: Path, found: LowConfidence | None, frame: Frame, crs: Crs, progress: Progress
 ) -> None:
     """Write low confidence areas as polygons."""
-    layer = Layer("low_confidence", "Polygon", _FIELDS, frame.wkt, crs.epsg)
+    layer = FeatureLayer("low_confidence", "Polygon", _FIELDS, frame.wkt, crs.epsg)
 
     def features() -> Iterator[Feature]:
         for area in found.areas if found else ():

@@ -17,7 +17,7 @@ from ...grids.piece_grid import PieceGrid
 from ...rasters import looks
 from ...rasters.geotiff import NODATA, RasterGrid, check_cells
 from ...rasters.looks import Categories, Look, Ramp, Steps
-from ...rasters.sparse import SIDE, Part
+from ...rasters.sparse import SIDE, RasterPart
 from ...rasters.writing import RasterCells, write_geotiff
 from ...report.pictures import HEIGHTS
 from .cells import STRIPS, Make, QualityCells, Rectangle
@@ -228,7 +228,7 @@ def write_rasters(
 
 def _parts_of(
     raster: QualityRaster, cells: QualityCells, frame: Frame, nodata: float
-) -> Iterator[Part]:
+) -> Iterator[RasterPart]:
     """Yield parts of a raster from north to south."""
     unit = frame.vertical_unit if raster.is_height else 1.0
 
@@ -240,4 +240,4 @@ def _parts_of(
     for row, column, (rows, columns) in grid.bands(band):
         values = cells.rows_of(make, rows, raster.is_coarse)[:, columns]
         made = np.where(np.isnan(values), nodata, values).astype(raster.kind)
-        yield Part(row, column, made[::-1])
+        yield RasterPart(row, column, made[::-1])

@@ -184,7 +184,7 @@ def _errors(
     return found, {}
 
 
-class Layer(NamedTuple):
+class BlockLayer(NamedTuple):
     """A layer from which rasters are made."""
 
     # returns its cells, perhaps with those of others
@@ -195,8 +195,8 @@ class Layer(NamedTuple):
 
 
 LAYERS = {
-    "terrain": Layer(_terrain, 3.0, of_ground=True, of_all=False),
-    "surface": Layer(surfaces, 4.0, of_ground=False, of_all=True),
-    "canopy": Layer(surfaces, 6.0, of_ground=True, of_all=True),
-    **dict.fromkeys(_OF_EVIDENCE, Layer(_errors, 1.5, of_ground=True, of_all=True)),
+    "terrain": BlockLayer(_terrain, 3.0, of_ground=True, of_all=False),
+    "surface": BlockLayer(surfaces, 4.0, of_ground=False, of_all=True),
+    "canopy": BlockLayer(surfaces, 6.0, of_ground=True, of_all=True),
+    **dict.fromkeys(_OF_EVIDENCE, BlockLayer(_errors, 1.5, of_ground=True, of_all=True)),
 }

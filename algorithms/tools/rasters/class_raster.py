@@ -15,7 +15,7 @@ from ...grids.piece_grid import PieceGrid
 from ...las.cloud import PointCloud, survey_frame
 from ...las.reading import read_parts
 from ...rasters.geotiff import RasterGrid
-from ...rasters.sparse import Part
+from ...rasters.sparse import RasterPart
 from ...rasters.writing import RasterCells, write_geotiff
 from ...survey.files import Inputs, open_survey
 
@@ -117,7 +117,7 @@ def _write(
     north = (whole.row + whole.rows) * grid.size
     where = RasterGrid(whole.column * grid.size, north, grid.size, whole.columns, whole.rows, frame)
     parts = (
-        Part(row, column, values[there][::-1])
+        RasterPart(row, column, values[there][::-1])
         for row, column, there in grid.bands(max(whole.rows, 1))
     )
     made = sum(math.prod(piece.window.shape) for piece in grid.pieces)

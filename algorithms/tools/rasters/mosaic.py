@@ -13,7 +13,7 @@ from ...core.progress import SILENT, Progress
 from ...grids.cell_window import CellWindow
 from ...grids.morphology import within_square
 from ...grids.outline import Outline, Span, spans
-from ...rasters.sparse import Part
+from ...rasters.sparse import RasterPart
 from ...survey.area import Area
 from ...tin.surface import CellLattice, Surface
 from .block import CONTENTS, TOP, BlockRasters
@@ -127,7 +127,7 @@ def made_parts(
     make: Callable[..., np.ndarray],
     margin: int,
     progress: Progress,
-) -> tuple[Iterator[Part], int]:
+) -> tuple[Iterator[RasterPart], int]:
     """Return the parts of a raster, from north to south, that `make` makes of the same span of each
     mosaic, all with the same cells, and how many cells these are; the first axis may be bands.
     """
@@ -143,11 +143,11 @@ def made_parts(
         if any(mosaic.meets(wide) for mosaic in mosaics):
             wanted.append((span, wide))
 
-    def parts() -> Iterator[Part]:
+    def parts() -> Iterator[RasterPart]:
         for number, (span, wide) in enumerate(wanted, start=1):
             rows, columns = (slice(margin, margin + side) for side in span.shape)
             made = make(*(mosaic.cells(wide) for mosaic in mosaics))
-            yield Part(span.start, span.first, made[..., rows, columns])
+            yield RasterPart(span.start, span.first, made[..., rows, columns])
             progress(number / len(wanted))
 
     return parts(), sum(math.prod(span.shape) for span, _ in wanted)

@@ -30,7 +30,7 @@ from .level_water import WaterCells
 from .mosaic import Mosaic, made_parts
 from .outlines import CellContents, Outlines, mosaics_of
 from .parameters import SurfaceModel, TerrainModel
-from .rows import RASTERS, How, Raster, RasterFiles
+from .rows import RASTERS, How, RasterFiles, RasterRow
 
 # Metres from the area up to which cells are made as well, because the surroundings decide which
 # gaps lie inside the survey.
@@ -40,7 +40,7 @@ WriteCells = Callable[[Path, RasterCells, RasterGrid, float, Progress, str], Non
 
 
 @dataclass(frozen=True)
-class Drawing:
+class RasterJob:
     """The rasters to make, and everything else that their cells depend on."""
 
     files: RasterFiles = field(default_factory=RasterFiles)
@@ -101,7 +101,7 @@ class Known:
 def write_rasters(
     blocks: Sequence[BlockRasters],
     frame: Frame,
-    step: Drawing,
+    step: RasterJob,
     outputs: Outputs,
     progress: Progress = SILENT,
     files: Mapping[str, Box] | None = None,
@@ -150,10 +150,10 @@ def write_rasters(
 
 
 def _write(
-    raster: Raster,
+    raster: RasterRow,
     layers: Sequence[Mosaic],
     frame: Frame,
-    step: Drawing,
+    step: RasterJob,
     write_cells: WriteCells,
     expected: ExpectedAccuracy | None,
     known: Known,
@@ -214,7 +214,7 @@ def _window_of(blocks: Sequence[BlockRasters], cell: float) -> CellWindow:
 
 
 def _windows(
-    blocks: Sequence[BlockRasters], step: Drawing, frame: Frame, area: Area | None
+    blocks: Sequence[BlockRasters], step: RasterJob, frame: Frame, area: Area | None
 ) -> tuple[CellWindow, CellWindow]:
     """Return the cells of the rasters, and those that are made for them, given the area in metres;
     refuse rasters without points or with too many cells.

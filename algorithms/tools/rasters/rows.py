@@ -15,7 +15,7 @@ import numpy as np
 
 from ...grids.canopy import PIT_PASSES, canopy_height, without_pits
 from ...rasters import looks
-from ...rasters.looks import Look, Picture, Ramp
+from ...rasters.looks import Look, PictureStyle, Ramp
 from ...relief.hillshade import hillshade, multidirectional_hillshade, slope
 from ...relief.horizons import (
     Cells,
@@ -50,7 +50,7 @@ class How(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Raster:
+class RasterRow:
     """A raster: what it shows, from which layers of a block it is made, and how it looks."""
 
     title: str  # of its layer
@@ -119,10 +119,10 @@ def _scaled(error: np.ndarray, terrain: np.ndarray, how: How) -> np.ndarray:
     return np.where(np.isnan(terrain), np.nan, error * how.terrain.error_factor)
 
 
-_relief = partial(Raster, is_relief=True, is_smoothed=True)
+_relief = partial(RasterRow, is_relief=True, is_smoothed=True)
 
 RASTERS = {
-    "dtm": Raster(
+    "dtm": RasterRow(
         "Terrain model",
         "Heights of the bare ground.",
         "Height, {unit}",
@@ -131,7 +131,7 @@ RASTERS = {
         label="Terrain model (DTM)",
         is_height=True,
     ),
-    "dsm": Raster(
+    "dsm": RasterRow(
         "Surface model",
         "The highest point of each cell, noise left out.",
         "Height, {unit}",
@@ -141,7 +141,7 @@ RASTERS = {
         label="Surface model (DSM)",
         is_height=True,
     ),
-    "chm": Raster(
+    "chm": RasterRow(
         "Canopy height",
         "The greatest height above the ground in each cell: of trees, and of buildings too. Each"
         " point is measured above the ground under it, so that bare slopes have 0. Empty where no"
@@ -161,11 +161,11 @@ RASTERS = {
         "Brightness, 1 to 255",
         _hillshade,
         # Level land is nearly white, so that colours above it look as in the legend.
-        Look(Picture((20.0, 210.0)), 0),
+        Look(PictureStyle((20.0, 210.0)), 0),
         reach=lambda how: 1,
         kind="uint8",
     ),
-    "expected_error": Raster(
+    "expected_error": RasterRow(
         "Expected error",
         "How far the terrain model may be off: 95 of 100 errors are expected to be smaller. It is"
         " large under dense trees, across gaps, at breaks and in low plants.",
@@ -175,7 +175,7 @@ RASTERS = {
         layers=("expected_error", "terrain"),
         is_height=True,
     ),
-    "error_cause": Raster(
+    "error_cause": RasterRow(
         "Cause of the expected error",
         "What makes the expected error large: 1 cells without ground, as under plants, 2 rough"
         " ground, 3 a slope, 4 a gap, 5 a gap beside a step, 6 low points that are not ground,"
@@ -256,7 +256,7 @@ RASTERS = {
         " any kind.",
         "Archaeological topography, 1 to 255",
         lambda heights, how: archaeological_topography(heights, how.cells, how.radius),
-        Look(Picture(), 5, hides=4),
+        Look(PictureStyle(), 5, hides=4),
         reach=lambda how: max(horizon_reach(VAT_RADII * how.radius, how.cells)),
         kind="uint8",
     ),
@@ -265,7 +265,7 @@ RASTERS = {
         "Slopes in red, ridges bright, hollows dark: a picture without light and shadow.",
         "Red relief",
         lambda heights, how: red_relief(heights, how.cells, how.radius),
-        Look(Picture(), 5, hides=3),
+        Look(PictureStyle(), 5, hides=3),
         reach=_horizon,
         kind="uint8",
         bands=3,

@@ -21,7 +21,7 @@ from ...engine.block_grid import BlockGrid, BlockIndex
 from ...engine.blocks import Blocks, Visit
 from ...engine.disk_store import RowsOnDisk, rows_in
 from ...engine.memory import Cost
-from ...engine.step import Look, Sink, Step
+from ...engine.step import ReadPoints, Sink, Step
 from ...engine.store import OTHERS, Marks, Store
 from ...grids.cell_window import CellWindow
 from ...grids.cells import first_of_each
@@ -36,7 +36,7 @@ from .block import LAYERS, BlockRasters
 from .block_view import BlockView
 from .constraints import NO_CONSTRAINTS, Constraints
 from .fixed_terrain import fixed_terrain
-from .output import AROUND_AREA, Drawing, RasterSize, no_point_in, write_rasters
+from .output import AROUND_AREA, RasterJob, RasterSize, no_point_in, write_rasters
 
 _Array = TypeVar("_Array", np.ndarray, RowsOnDisk)
 # Points are thinned to one a cell unless there are more than ten cells a point,
@@ -67,7 +67,7 @@ def _old(part: PointCloud, classes: Sequence[int]) -> list[int]:
 
 
 @dataclass(frozen=True)
-class MakeRasters(Drawing, Sink):
+class MakeRasters(RasterJob, Sink):
     """Makes rasters from classified points."""
 
     ground: GroundClasses = field(default_factory=GroundClasses)
@@ -121,7 +121,7 @@ class MakeRasters(Drawing, Sink):
         cells = cell_grid(self.target, usual, place.crs, place.box, progress)
         return replace(self, placed_cells=cells)
 
-    def seeing(self, look: Look, frame: Frame, progress: Progress = SILENT) -> MakeRasters:
+    def seeing(self, look: ReadPoints, frame: Frame, progress: Progress = SILENT) -> MakeRasters:
         """Return the step with the vertices of its constraints; see `fixed_terrain`."""
         if not self.constraints.any:
             return self

@@ -15,11 +15,11 @@ from ...core.progress import SILENT, Progress
 from ...core.words import counted
 from ...grids.expected_error import ExpectedAccuracy
 from ...rasters.content import NO_CELLS, Source
-from ...rasters.geotiff import Raster, read_raster
+from ...rasters.geotiff import HeightBand, read_raster
 from ...rasters.windows import RasterWindows, Windows, parts_of
 from ...report.units import Units
 from ...survey.area import Polygon
-from ...survey.feature_files import Feature, Layer, feature_writer
+from ...survey.feature_files import Feature, FeatureLayer, feature_writer
 from ...survey.files import Inputs
 from ...survey.shapes import Place
 from ..contours import corners_of
@@ -127,7 +127,7 @@ def review(
     )
     lines = np.array([corners_of(line_of(rasters, place), raster).ravel() for place in chosen])
     if places is not None:
-        layer = Layer("places", "Polygon", FIELDS, raster.frame.wkt, raster.crs.epsg)
+        layer = FeatureLayer("places", "Polygon", FIELDS, raster.frame.wkt, raster.crs.epsg)
         features = chain(
             _features(chosen, lines, raster, total), carried_over(answered, len(chosen))
         )
@@ -146,7 +146,7 @@ def review(
 
 
 def _rasters(
-    raster: Raster, dtm: Source | None, cause: Source | None, earlier: Source | None
+    raster: HeightBand, dtm: Source | None, cause: Source | None, earlier: Source | None
 ) -> tuple[Rasters, Windows | None]:
     """Return the values of rasters that must have the same cells, and the earlier terrain."""
     width, height = raster.cell_metres
@@ -180,7 +180,7 @@ def _rasters(
 
 
 def _features(
-    places: list[PlaceToReview], lines: np.ndarray, raster: Raster, total: float
+    places: list[PlaceToReview], lines: np.ndarray, raster: HeightBand, total: float
 ) -> Iterator[Feature]:
     """Yield the places as polygons, with their profile lines."""
     up = raster.frame.vertical_unit

@@ -8,7 +8,7 @@ import numpy as np
 
 from ...classes.corrections import SKIP, Corrections
 from ...core.words import counted
-from ...rasters.geotiff import Raster
+from ...rasters.geotiff import HeightBand
 from ...rasters.windows import Windows, parts_of
 from ...survey.area import Area, Polygon
 from ...survey.feature_files import Feature
@@ -28,7 +28,7 @@ _CHANGED = 0.01  # metres, from which on the height of a cell has changed
 
 
 def sorted_by_answers(
-    places: Sequence[PlaceToReview], raster: Raster, corrections: Corrections
+    places: Sequence[PlaceToReview], raster: HeightBand, corrections: Corrections
 ) -> tuple[list[PlaceToReview], int]:
     """Return the places without an answer, skipped ones last, and how many have one."""
     waits = [answer == SKIP for answer in corrections.answers]
@@ -44,7 +44,7 @@ def _chosen(corrections: Corrections, waits: Sequence[bool], which: bool) -> tup
 
 
 def _are_in(
-    places: Sequence[PlaceToReview], raster: Raster, polygons: tuple[Polygon, ...]
+    places: Sequence[PlaceToReview], raster: HeightBand, polygons: tuple[Polygon, ...]
 ) -> np.ndarray:
     """Return whether the worst cell of each place lies in a polygon; bool, (n,)."""
     if not polygons or not places:
@@ -118,7 +118,7 @@ class Change(NamedTuple):
 
 
 def changes_of(
-    rasters: Rasters, before: Windows, raster: Raster, corrections: Corrections
+    rasters: Rasters, before: Windows, raster: HeightBand, corrections: Corrections
 ) -> list[Change]:
     """Return what changed in all cells, and in each place whose answer changes classes."""
     rises = _Rises(rasters.terrain, before)
@@ -144,7 +144,7 @@ class _Rises:
         return np.nan_to_num(terrain - before)
 
 
-def _inside(rises: _Rises, polygon: Polygon, raster: Raster) -> np.ndarray:
+def _inside(rises: _Rises, polygon: Polygon, raster: HeightBand) -> np.ndarray:
     """Return the values of the cells in a polygon."""
     x0, a, _, y0, _, d = raster.geotransform
     corners = np.vstack(polygon)[:, :2]

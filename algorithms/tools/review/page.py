@@ -11,7 +11,7 @@ from ...rasters.windows import Windows
 from ...relief.hillshade import hillshade
 from ...report.page import Html, element, key, map_of, page, paragraph, section, table
 from ...report.pictures import Picture, rgb
-from ...report.profile_chart import Dots, Line, profile_chart
+from ...report.profile_chart import ChartLine, Dots, profile_chart
 from ...report.units import Units, percent
 from .answered import Change
 from .places import PlaceToReview, Rasters
@@ -161,7 +161,7 @@ def _profile(
     start, end = _WINDS[(towards + 4) % len(_WINDS)], _WINDS[towards]
     return profile_chart(
         f"Profile through the worst cell, from {start} to {end}",
-        Line(along, terrain, terrain - error, terrain + error, (_TERRAIN, _PLACE)),
+        ChartLine(along, terrain, terrain - error, terrain + error, (_TERRAIN, _PLACE)),
         dots,
         (units.across, units.up),
         {"left": start, "right": end},

@@ -13,7 +13,7 @@ from ...grids.isolines import rings_of
 from ...grids.quantile import quantile_of
 from ...rasters.windows import Windows, parts_of, stored_of
 from ...report.units import Units
-from .reasons import Figures, reason_of
+from .reasons import PlaceFigures, reason_of
 
 # Places end at the lines of a square grid of this side in metres, so that one can be looked at as a
 # whole: a forest would be a single place.
@@ -187,4 +187,4 @@ def _reason(
         part.start == 0 or part.stop == whole for part, whole in zip(window, rasters.error.shape)
     )
     is_border = is_border or bool(np.isnan(rasters.error[around]).any())
-    return reason_of(cause, Figures(rise, width, float(errors.max())), is_border, units)
+    return reason_of(cause, PlaceFigures(rise, width, float(errors.max())), is_border, units)

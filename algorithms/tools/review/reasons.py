@@ -31,7 +31,7 @@ TEXTS = (*_REASONS.values(), _UNKNOWN, _RELIEF, _BORDER)
 CAUSES = len(_REASONS)  # numbers from 1 on; 0 is no cause
 
 
-class Figures(NamedTuple):
+class PlaceFigures(NamedTuple):
     """The figures of a place in metres."""
 
     rise: float  # NaN without a terrain model
@@ -39,7 +39,7 @@ class Figures(NamedTuple):
     error: float
 
 
-def reason_of(cause: int, figures: Figures, is_border: bool, units: Units) -> str:
+def reason_of(cause: int, figures: PlaceFigures, is_border: bool, units: Units) -> str:
     """Return the reason for a cause, the number of a piece of `Evidence` or 0 for none."""
     first = _REASONS[Evidence._fields[cause - 1]] if cause else _UNKNOWN
     has_relief = first in _OF_RELIEF and not math.isnan(figures.rise)

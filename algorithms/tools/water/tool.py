@@ -17,7 +17,7 @@ from ...crs.system import Crs
 from ...grids.lines import along
 from ...las.cloud import PointCloud, survey_frame
 from ...survey.area import Polygon
-from ...survey.feature_files import Feature, Layer, feature_writer
+from ...survey.feature_files import Feature, FeatureLayer, feature_writer
 from ...survey.files import Inputs
 from ..check.survey_ground import SurveyGround
 from ..declaration import CLASSIFIED, CLOUD, CRS, FileTool, Output
@@ -132,12 +132,12 @@ class SurveyWater:
         for number, line in self.breaklines:
             yield Feature((number, "breakline"), self._in_crs(line))
 
-    def layers(self) -> tuple[tuple[Layer, Iterator[Feature]], ...]:
+    def layers(self) -> tuple[tuple[FeatureLayer, Iterator[Feature]], ...]:
         """Return the polygons and the breaklines."""
         crs = self.crs.wkt, self.crs.epsg
         return (
-            (Layer("water", "Polygon", FIELDS, *crs), self.polygons()),
-            (Layer("breaklines", "LineString Z", LINE_FIELDS, *crs), self.lines()),
+            (FeatureLayer("water", "Polygon", FIELDS, *crs), self.polygons()),
+            (FeatureLayer("breaklines", "LineString Z", LINE_FIELDS, *crs), self.lines()),
         )
 
     def write(self, polygons: Path | None, lines: Path | None, progress: Progress) -> None:
