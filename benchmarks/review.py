@@ -73,13 +73,12 @@ class Land(NamedTuple):
         if not len(known) or np.quantile(np.abs(known), 0.95) <= _RIGHT:
             return "right"
         is_high = (np.maximum(known, 0) ** 2).sum() > (np.minimum(known, 0) ** 2).sum()
+        if not is_high:
+            new = continued_ground(self.points, ground, inside) & ~ground
+            if self._true_share(new) > _MOSTLY:
+                return "ground"
         # Ground that is no ground is seen in the profile, above the land or below it.
-        if self._true_share(inside & ground) < 1 - _MOSTLY:
-            return "not ground"
-        if is_high:
-            return "skip"
-        new = continued_ground(self.points, ground, inside) & ~ground
-        return "ground" if self._true_share(new) > _MOSTLY else "skip"
+        return "not ground" if self._true_share(inside & ground) < 1 - _MOSTLY else "skip"
 
     def _true_share(self, chosen: np.ndarray) -> float:
         """Return the share of some points that lie on the land; NaN without any."""

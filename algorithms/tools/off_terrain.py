@@ -16,9 +16,10 @@ import numpy as np
 from ..core.errors import BareEarthError
 from ..core.parameters import ParameterSet, parameter
 from ..core.progress import SILENT, Progress
+from ..engine.memory import GIGABYTE, free_memory
 from ..grids.inpaint import inpaint
 from ..grids.morphology import opening
-from ..rasters.content import Source
+from ..rasters.content import NO_CELLS, Source
 from ..rasters.geotiff import NODATA, read_raster
 from ..rasters.writing import write_geotiff
 from .declaration import RASTER, TERRAIN, FileTool, Input, Output
@@ -28,6 +29,7 @@ _DIRECTIONS = ((0, 1), (1, -1), (1, 0), (1, 1))
 _RELAXATIONS = 40
 # Number of neighbours from which a cell must rise gently. A way one cell wide is no hillside.
 _WAYS = 2
+_A_CELL = 50.0  # bytes of memory
 
 
 @dataclass(frozen=True)
@@ -87,6 +89,7 @@ def remove_objects_file(
     """Write the raster of a surface, one that GDAL can read, without the objects on it, as a
     GeoTIFF of float32 with the same grid, CRS and unit.
     """
+    _check_memory(source, parameters.band)
     # An error says if the raster has no heights, or its CRS is geographic.
     raster = read_raster(source, parameters.band, progress)
     raster.tell(progress)
@@ -103,6 +106,17 @@ def remove_objects_file(
     values = np.where(known, heights, no_data).astype(np.float32)
     write(output, values, raster, no_data, progress, "Height, {unit}")
     return Removal(int(np.count_nonzero(known)), int(np.count_nonzero(removed)))
+
+
+def _check_memory(source: Source, band: int) -> None:
+    """Refuse a raster whose cells take more memory than is free."""
+    rows, columns = read_raster(source, band, window=NO_CELLS).whole
+    needed, free = rows * columns * _A_CELL, free_memory()
+    if needed > free:
+        raise BareEarthError(
+            f"{source} has {columns:,} x {rows:,} cells, which take {needed / GIGABYTE:.1f} GB of"
+            f" memory; {free / GIGABYTE:.1f} GB are free. Cut it into parts that overlap."
+        )
 
 
 def remove_objects(

@@ -8,6 +8,7 @@ from runs import Heard
 from bare_earth import BareEarthError
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.rasters.geotiff import read_raster
+from bare_earth.algorithms.tools import off_terrain
 from bare_earth.algorithms.tools.off_terrain import (
     OffTerrain,
     remove_objects,
@@ -257,3 +258,18 @@ def test_the_command(tmp_path, capsys):
     assert json.loads(capsys.readouterr().out)["removed_count"] > 500
     assert main([*words, "--slope-threshold", "95"]) == 2
     assert "at most 88 deg" in capsys.readouterr().err
+
+
+def test_a_raster_that_takes_more_memory_than_is_free_is_refused(tmp_path, monkeypatch):
+    source, target = tmp_path / "in.tif", tmp_path / "out.tif"
+    with rasterio.open(
+        source, "w", driver="GTiff", height=ROWS, width=COLUMNS, count=1, dtype="float32"
+    ) as raster:
+        raster.write(terrain().astype(np.float32), 1)
+    monkeypatch.setattr(off_terrain, "free_memory", lambda: 100_000)
+    with pytest.raises(BareEarthError, match=r"150 x 120 cells, which take 0\.0 GB of memory"):
+        remove_objects_file(source, target)
+    assert not target.exists()
+    monkeypatch.setattr(off_terrain, "free_memory", lambda: 1_000_000)
+    remove_objects_file(source, target)
+    assert target.exists()
