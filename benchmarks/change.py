@@ -10,7 +10,7 @@ import argparse
 import json
 import tempfile
 from pathlib import Path
-from typing import Callable, Iterator, NamedTuple
+from typing import Callable, Iterator, NamedTuple, Sequence
 
 import laspy
 import numpy as np
@@ -35,9 +35,12 @@ SIZES = (3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 13.0, 18.0)  # metres, half of the width
 HEIGHTS = (0.2, 0.5, 1.0, 2.0, 5.0)  # metres
 OBJECTS = ("roof", "trees", "crops", "lorry")
 SHIFT, TILT = 0.15, 1e-4
+_CUT = ("pit", "bank", "trench", *OBJECTS)
+_STEEPEST = 0.4  # height of a heap or a landslide in relation to half of its width
 _AREA = 8.0  # square metres over the limit from which a place should be found
 _SHARE = 0.5  # of a change that must be over the limit
 _ROOM = 3.0  # metres between changes
+_PARTS = ("stable", "terrains", "changes", "objects")
 _MOST = 8  # changes of a tile
 
 Shape = Callable[[np.ndarray, np.ndarray], np.ndarray]
@@ -90,8 +93,7 @@ def halves(name: str, seed: int = 1) -> tuple[laspy.LasData, laspy.LasData]:
 
 
 def _part(las: laspy.LasData, chosen: np.ndarray) -> laspy.LasData:
-    part = laspy.LasData(las.header)
-    part.points = las.points[chosen].copy()
+    part = laspy.LasData(las.header, las.points[chosen].copy())
     part.classification[:] = 0
     return part
 
@@ -110,8 +112,9 @@ def stable(name: str, folder: Path) -> dict[str, object]:
     """Return what is called change between both halves of a tile, in percent."""
     found = run(*halves(name), folder)
     area = found.cell_count * _cell(folder) ** 2
-    share = 100.0 * (found.risen_area + found.sunk_area) / area
-    earth = sum(one["AREA"] for one in _places(folder) if one["KIND"] == "earth")
+    places = _places(folder)
+    share = 100.0 * sum(one["AREA"] for one in places) / area
+    earth = sum(one["AREA"] for one in places if one["KIND"] == "earth")
     return {
         "tile": name, "share": share, "earth": 100.0 * earth / area, "places": found.place_count,
         "left out": found.left_out, "nmad": found.nmad, "limit": found.median_limit,
@@ -164,7 +167,10 @@ def _drawn(las: laspy.LasData, random: np.random.Generator, kinds: tuple[str, ..
         )
         if any(np.hypot(at[0] - p.x, at[1] - p.y) < reach + 1.9 * p.size for p in put):
             continue
-        kind, height = str(random.choice(kinds)), float(random.choice(HEIGHTS))
+        kind = str(random.choice(kinds))
+        # Loose earth is no steeper than 40 degrees; cuts can be.
+        stands = [h for h in HEIGHTS if kind in _CUT or h <= _STEEPEST * size]
+        height = float(random.choice(stands))
         put.append(_Put(kind, size, height, *at, random.uniform(0.0, 2.0 * np.pi)))
         room -= area
         if len(put) == _MOST:
@@ -183,6 +189,41 @@ def generated(name: str, folder: Path, seed: int, is_moved: bool) -> Iterator[Ca
     unit = _unit(new)
     new.z = np.asarray(new.z) + change / unit
     run(old, new, folder)
+    yield from _cases(name, put, folder)
+
+
+def in_terrains(name: str, folder: Path, seeds: Sequence[int]) -> Iterator[Case]:
+    """Yield changes that were put into the terrain model of a half of a tile, so that the filter
+    has no part in it; in every second run, shift and tilt too.
+    """
+    import rasterio
+
+    halved, files = halves(name), list[dict[str, Path]]()
+    for number, half in enumerate(halved):
+        half.write(folder / "half.las")
+        made = {key: folder / f"{key}{number}.tif" for key in ("dtm", "expected_error")}
+        bare_earth.classify(folder / "half.las", folder / "half.laz", **made)
+        files.append(made)
+    (old, old_error), (new, new_error) = (tuple(made.values()) for made in files)
+    with rasterio.open(new) as raster:
+        heights, profile = raster.read(1, masked=True), raster.profile
+        column, row = np.meshgrid(np.arange(raster.width) + 0.5, np.arange(raster.height) + 0.5)
+        x, y = raster.transform * (column, row)
+    for number, seed in enumerate(seeds):
+        put = _drawn(halved[1], np.random.default_rng(seed), KINDS)
+        change = sum((one.change(x, y) for one in put), np.zeros(x.shape))
+        change += (number % 2) * (SHIFT + TILT * (x - x.mean()))
+        with rasterio.open(folder / "changed.tif", "w", **profile) as raster:
+            raster.write(heights + change / _unit(halved[1]), 1)
+        bare_earth.change(
+            old, folder / "changed.tif", folder / "difference.tif", limit=folder / "limit.tif",
+            places=folder / "places.geojson", old_error=old_error, new_error=new_error,
+        )  # fmt: skip
+        yield from _cases(name, put, folder)
+
+
+def _cases(name: str, put: Sequence[_Put], folder: Path) -> Iterator[Case]:
+    """Yield what was found of changes."""
     places = _places(folder)
     sampler = HeightSampler(HeightRaster.of(folder / "limit.tif"))
     for one in put:
@@ -289,6 +330,13 @@ def report(seeds: int, tiles: tuple[str, ...], parts: set[str]) -> Iterator[str]
                     f"| {name} | {found['share']:.2f} | {found['earth']:.2f} | {found['places']} |"
                     f" {found['left out']} | {found['nmad']:.3f} | {found['limit']:.2f} |"
                 )
+        if "terrains" in parts:
+            cases = list[Case]()
+            for place, name in enumerate(tiles):
+                some = [7000 + 100 * number + place for number in range(4 * seeds)]
+                cases += in_terrains(name, folder, some)
+            yield "\nIn terrain models:"
+            yield from _of_changes(cases)
         cases, things = list[Case](), list[Case]()
         for number in range(seeds):
             for place, name in enumerate(tiles):
@@ -298,6 +346,7 @@ def report(seeds: int, tiles: tuple[str, ...], parts: set[str]) -> Iterator[str]
                 if "objects" in parts:
                     things += objects(name, folder, 5000 + 100 * number + place)
         if cases:
+            yield "\nIn points:"
             yield from _of_changes(cases)
         if things:
             yield from _of_things(things)
@@ -347,8 +396,7 @@ def main() -> None:
     parser.add_argument("--tiles", nargs="+", default=TILES)
     parser.add_argument("--seeds", type=int, default=1, help="runs of each tile with changes")
     parser.add_argument(
-        "--parts", nargs="+", choices=("stable", "changes", "objects"),
-        default=("stable", "changes", "objects"),
+        "--parts", nargs="+", choices=_PARTS, default=_PARTS,
     )  # fmt: skip
     given = parser.parse_args()
     for line in report(given.seeds, tuple(given.tiles), set(given.parts)):

@@ -117,6 +117,8 @@ COMMANDS = {
     " --low-confidence water.geojson",
     "review": "review terrain/file/error.tif OUT/places.gpkg --dtm terrain/file/dtm.tif --cause"
     " terrain/file/cause.tif --page OUT/page.html --json",
+    "change": "change truth.laz classify/tin/a.laz OUT/change.tif --limit OUT/limit.tif --places"
+    " OUT/places.gpkg --page OUT/page.html --no-find-ground --json",
     "quality/file": "quality truth.laz --specification lbs-ql1 --page OUT/page.html --folder OUT/q"
     " --low-confidence OUT/areas.geojson --low-confidence-area 100 --json",
     "quality/survey": "quality truth --specification linz --page OUT/page.html",

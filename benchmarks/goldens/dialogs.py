@@ -81,6 +81,10 @@ RUNS: dict[str, tuple[str, dict[str, Any]]] = {
     "canopy": ("canopyheight", {
         "SURFACE": "terrain/dsm.tif", "TERRAIN": "terrain/dtm.tif", "OUTPUT": "OUT/chm.tif",
     }),
+    "change": ("change", {
+        "OLD": "terrain/dsm.tif", "NEW": "terrain/dtm.tif", "OUTPUT": "OUT/change.tif",
+        "LIMIT": "OUT/limit.tif", "PLACES": "OUT/places.gpkg", "REPORT": "OUT/page.html",
+    }),
     "off-terrain": ("removeoffterrainobjects", {"INPUT": "terrain/dsm.tif", "OUTPUT": "OUT/a.tif"}),
     "above-ground": ("classifyaboveground", {
         "INPUT": "truth.laz", "ABOVE_GROUND": "ign", "RECLASSIFY": True, "OUTPUT": "OUT/a.laz",

@@ -42,6 +42,9 @@ FUNCTIONS: dict[str, Callable[[Path], Any]] = {
     ),
     "contours": lambda out: bare.contours(_DTM, out / "lines.geojson"),
     "canopy": lambda out: bare.canopy("terrain/file/dsm.tif", _DTM, out / "chm.tif"),
+    "change": lambda out: bare.change(
+        "terrain/file/dsm.tif", _DTM, out / "change.tif", places=out / "places.geojson"
+    ),
     "relief": lambda out: bare.relief(_DTM, out / "sky.tif", kind="sky-view"),
     "remove_off_terrain_objects": lambda out: bare.remove_off_terrain_objects(
         "terrain/file/dsm.tif", out / "dtm.tif"

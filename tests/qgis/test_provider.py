@@ -145,7 +145,7 @@ PARAMETERS = {
         "CORRECTIONS", "CORRECTIONS_FIELD", "OUTPUT", "REPORT",
     ],
     "bareearth:change": [
-        "OLD", "NEW", "OLD_ERROR", "NEW_ERROR", "LIKE", "ALIGNMENT", "MOVE", "FIND_GROUND",
+        "OLD", "NEW", "OLD_ERROR", "NEW_ERROR", "LIKE", "CRS", "ALIGNMENT", "MOVE", "FIND_GROUND",
         "CELL_SIZE", "LEAST_AREA", "METHOD", "PRESET", "THREADS", "MEMORY", "OUTPUT", "LIMIT",
         "PLACES", "REPORT",
     ],

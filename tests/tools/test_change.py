@@ -3,6 +3,7 @@
 import json
 import re
 
+import laspy
 import numpy as np
 import pytest
 from runs import Heard, said
@@ -134,7 +135,8 @@ def test_an_object_is_not_called_earth(tmp_path):
     x, y = places()
     house = 5.0 * ((np.abs(x - 80) < 8) & (np.abs(y - 80) < 6))
     files, errors = pair(tmp_path, house)
-    bare_earth.change(*files, places=tmp_path / "places.geojson", **errors)
+    found = bare_earth.change(*files, places=tmp_path / "places.geojson", **errors)
+    assert found.place_count == 1 and found.volume_up == 0.0
     (only,) = features(tmp_path / "places.geojson")
     assert only["properties"]["KIND"] == "building or other object, new"
 
@@ -228,9 +230,30 @@ def test_what_the_points_of_both_dates_show_is_no_change(tmp_path):
 def test_the_ground_of_clouds_is_found_first(tmp_path):
     old = cloud(tmp_path / "old.las", 1, classes=0)
     new = cloud(tmp_path / "new.las", 2, lambda x, y: heap(x, y, 60.0, 40.0, 8.0, 1.5), classes=0)
-    found = bare_earth.change(old, new, tmp_path / "out.tif", method="slope")
+    found = bare_earth.change(old, new, tmp_path / "out.tif", method="slope", crs="EPSG:25832")
+    assert "25832" in rasterio.open(tmp_path / "out.tif").crs.to_string()
     assert found.volume_up == pytest.approx(heap(*places(100), 60, 40, 8, 1.5).sum(), rel=0.1)
     assert found.by_error
+
+
+@pytest.mark.parametrize("find_ground", [True, False])
+def test_surveys_of_many_files_have_the_change_of_one(tmp_path, find_ground):
+    def change(x, y):
+        return heap(x, y, 50.0, 40.0, 8.0, 1.5)
+
+    for name, seed, put in (("old", 1, lambda x, y: 0.0), ("new", 2, change)):
+        (tmp_path / name).mkdir()
+        whole = cloud(tmp_path / name / "west.las", seed, put)
+        las = laspy.read(whole)
+        is_west = np.asarray(las.x) < WEST + 50.0
+        for part, points in (("west", is_west), ("east", ~is_west)):
+            laspy.LasData(las.header, las.points[points]).write(tmp_path / name / f"{part}.las")
+    folders = tmp_path / "old", tmp_path / "new"
+    found = bare_earth.change(
+        *folders, tmp_path / "out.tif", find_ground=find_ground, method="slope"
+    )
+    truth = heap(*places(100), 50.0, 40.0, 8.0, 1.5).sum()
+    assert found.volume_up == pytest.approx(truth, rel=0.1) and found.place_count == 1
 
 
 def test_surveys_apart_are_refused_before_the_work(tmp_path):

@@ -5,14 +5,13 @@ from __future__ import annotations
 import tempfile
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Callable, Iterator, Sequence
+from typing import Callable, Iterator
 
 import numpy as np
 
 from ...core.files import temporary_folder
 from ...core.parameters import ParameterSet, parameter
 from ...core.progress import SILENT, Progress
-from ...core.words import counted
 from ...engine.memory import Resources
 from ...rasters.content import Source
 from ...rasters.geotiff import NODATA
@@ -21,19 +20,17 @@ from ...rasters.writing import RasterCells, write_geotiff
 from ...report.units import Units
 from ...survey.area import Polygon
 from ...survey.feature_files import Feature, FeatureLayer, feature_writer
-from ...survey.files import Inputs
 from ..contours import corners_of
-from ..declaration import CLOUD, RASTER, TERRAIN, FileTool, Input, Output
+from ..declaration import CLOUD, CRS, RASTER, TERRAIN, FileTool, Input, Output
 from ..ground.method import TileMethod
 from ..rasters.parameters import TerrainModel
 from .judged import SAME, judged
-from .page import Found, change_html
+from .page import change_html
 from .pair import Given, Pair, Strip, pair_of
-from .places import ChangePlace, Places, limits_of, places_of
-from .stable import Alignment, aligned, sample_of, scatter_of
+from .places import Places, limits_of, places_of
+from .stable import aligned, sample_of, scatter_of
+from .summary import ChangeSummary, Found, summary_of
 
-# Metres of which the summary tells in which share of the area such a change could be told.
-TOLD = (0.1, 0.3, 1.0)
 _FIELDS = {
     "RANK": int, "KIND": str, "AREA": float, "VOLUME": float, "VOLUME_ERR": float, "MEAN": float,
     "LARGEST": float, "LIMIT": float,
@@ -74,70 +71,6 @@ class Comparison(ParameterSet):
     )
 
 
-@dataclass(frozen=True)
-class ChangeSummary:
-    """The change between two surveys; lengths are metres."""
-
-    cell_count: int  # with a value in both
-    place_count: int  # of significant change
-    risen_area: float  # square metres
-    sunk_area: float
-    volume_up: float  # cubic metres
-    volume_up_error: float  # 95 %
-    volume_down: float
-    volume_down_error: float
-    left_out: int  # places that the points of both dates show in both
-    alignment: Alignment
-    nmad: float  # of the difference on stable land
-    median_limit: float  # of the detection limits
-    can_tell: dict[float, float]  # share of the area in which a change of so many metres is told
-    by_error: bool  # whether limits follow from expected errors
-
-    @property
-    def shift(self) -> float:
-        """The vertical shift that was taken off."""
-        return self.alignment.shift
-
-    def figures(self, units: Units) -> list[tuple[str, str]]:
-        """Return the figures of the page, with their titles."""
-        told = (f"{units.height(metres)} in {share:.0%}" for metres, share in self.can_tell.items())
-        up, down = self._volumes(units)
-        return [
-            ("Places of significant change", f"{self.place_count:,}"),
-            ("Up", up),
-            ("Down", down),
-            (f"Left out: {SAME}", f"{self.left_out:,}"),
-            ("Taken off", self.alignment.text),
-            ("NMAD of stable land", units.height(self.nmad)),
-            ("Detection limit of a cell, median", units.height(self.median_limit)),
-            ("A change can be told, share of the area", ", ".join(told)),
-        ]
-
-    def _volumes(self, units: Units) -> tuple[str, ...]:
-        """Return the volumes up and down with their errors and areas."""
-        area, volume = units.horizontal**2, units.horizontal**2 * units.vertical
-        return tuple(
-            f"{value / volume:,.0f} ± {error / volume:,.0f} {units.cubic} on"
-            f" {square / area:,.0f} {units.across}²"
-            for value, error, square in (
-                (self.volume_up, self.volume_up_error, self.risen_area),
-                (self.volume_down, self.volume_down_error, self.sunk_area),
-            )
-        )
-
-    @property
-    def text(self) -> str:
-        """The result in sentences."""
-        left = f" Left out: {counted(self.left_out, 'place')}, {SAME}." * (self.left_out > 0)
-        told = ", ".join(f"{metres:g} m in {share:.0%}" for metres, share in self.can_tell.items())
-        up, down = self._volumes(Units())
-        return (
-            f"{counted(self.place_count, 'place')} of significant change: {up} up, {down} down"
-            f" (errors 95 %).{left} Taken off: {self.alignment.text}. A change can be told: {told}"
-            " of the area."
-        )
-
-
 def change(
     old: Source,
     new: Source,
@@ -148,6 +81,7 @@ def change(
     old_error: Source | None = None,
     new_error: Source | None = None,
     like: Source | None = None,
+    crs: str | None = None,
     comparison: Comparison = Comparison(),
     how: Places = Places(),
     method: TileMethod = TileMethod(),
@@ -159,7 +93,8 @@ def change(
     """Write how the ground changed from an old to a new survey: the difference, what of it can be
     told from errors, the places, and a page.
     """
-    dates, names = (Given(old, old_error), Given(new, new_error)), (str(old), str(new))
+    dates = Given(old, old_error, crs), Given(new, new_error, crs)
+    names = str(old), str(new)
     outputs = [path.parent for path in (difference, limit, places, page) if path is not None]
     beside = next((folder for folder in outputs if folder.is_dir()), Path(tempfile.gettempdir()))
     model = TerrainModel(dtm_cell_size=comparison.cell_size)
@@ -167,11 +102,11 @@ def change(
     with temporary_folder(beside) as folder:
         pair = pair_of(dates, like, folder, made_of, progress.part(0.0, 0.6))
         found = _found(pair, names, comparison, how, progress.part(0.6, 0.8))
-        clouds = [Inputs(date.terrain) if date.is_cloud else None for date in dates]  # type: ignore
+        clouds = [date.cloud for date in dates]
         every = judged(found.pair, found.alignment, found.places, clouds, progress.part(0.8, 0.9))
         kept = [place for place in every if place.kind != SAME]
         found = found._replace(places=kept)
-        summary = _summary(found, len(every) - len(kept))
+        summary = summary_of(found, len(every) - len(kept))
         _write_rasters(found, (difference, limit), write, no_data, progress.part(0.9, 0.97))
         if places is not None:
             grid = found.pair.grid
@@ -202,44 +137,6 @@ def _found(
     scatter = scatter_of(pair, sample, alignment, progress.part(0.4, 0.6))
     places = places_of(pair, alignment, scatter, how, progress.part(0.6, 1.0))
     return Found(pair, sample, alignment, scatter, places)
-
-
-def _summary(found: Found, left_out: int) -> ChangeSummary:
-    """Return the figures of all places and of the whole area."""
-    sample, alignment = found.sample, found.alignment
-    limits = limits_of(found.scatter, alignment, sample.spread, sample.slope)
-    up, down = (
-        [place for place in found.places if sign * place.volume > 0] for sign in (1, -1)
-    )  # fmt: skip
-    volume_up, volume_up_error = _volume(up, alignment)
-    volume_down, volume_down_error = _volume(down, alignment)
-    risen, sunk = (round(sum(place.area for place in places), 1) for places in (up, down))
-    return ChangeSummary(
-        cell_count=sample.common,
-        place_count=len(found.places),
-        risen_area=risen,
-        sunk_area=sunk,
-        volume_up=volume_up,
-        volume_up_error=volume_up_error,
-        volume_down=volume_down,
-        volume_down_error=volume_down_error,
-        left_out=left_out,
-        alignment=alignment,
-        nmad=round(found.scatter.nmad, 4),
-        median_limit=round(float(np.nanmedian(limits)), 3),
-        can_tell={metres: round(float(np.mean(limits <= metres)), 4) for metres in TOLD},
-        by_error=found.scatter.by_error,
-    )
-
-
-def _volume(places: Sequence[ChangePlace], alignment: Alignment) -> tuple[float, float]:
-    """Return the volume of places, positive, and its error: that of the alignment is the same in
-    all of them, the others are independent.
-    """
-    aligned = alignment.limit * sum(place.area for place in places)
-    others = sum(place.volume_error**2 - (alignment.limit * place.area) ** 2 for place in places)
-    total = abs(sum(place.volume for place in places))
-    return round(total, 2), round(float(np.sqrt(aligned**2 + max(others, 0.0))), 2)
 
 
 def _write_rasters(
@@ -321,6 +218,7 @@ TOOL = FileTool(
             optional=True,
             advanced=True,
         ),
+        CRS,
     ),
     outputs=(
         Output(

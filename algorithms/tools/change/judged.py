@@ -23,10 +23,12 @@ GAP = "edge of a gap"
 SAME = "the same in the points of both dates"  # such places are left out
 
 _NOISE = (7, 18)  # classes of points that are no witnesses
-# The share of a change that a point may lie off one of both terrains to be part of it, and metres
-# that it may at most.
-_OFF, _MOST_OFF = 0.4, 0.5
-_SEEN = 0.4  # share of the cells with points of one date that have one at the terrain of the other
+# Below a terrain that rose or has not sunk yet there are no points, unless the filter took plants
+# for ground: in this share of the cells is enough. Plants can be where the other date has its
+# terrain, so this takes more cells, and points that lie nearer.
+_BELOW, _AT = 0.3, 0.7
+# The share of a change that a point may lie off a terrain to be part of it, and metres at most.
+_OFF, _MOST_OFF = 0.4, (0.5, 0.2)
 _AROUND = 4  # cells round a place that its surroundings are taken from
 _EMPTY = 0.3  # share of the surroundings without value beside gaps
 # Of water: the least area in square metres, and the most that half of the cells lie apart.
@@ -47,12 +49,15 @@ def judged(
     """Return the places with what they probably are."""
     kinds = [_by_shape(pair, alignment, place) for place in places]
     if places and any(cloud is not None for cloud in clouds):
-        shares = np.zeros(len(places))
+        is_same = np.zeros(len(places), dtype=bool)
         for is_new, (cloud, part) in enumerate(zip(clouds, progress.shares(1, 1))):
             if cloud is not None:
+                # The points of the date whose terrain is higher reach below it.
+                rose = np.array([place.mean > 0 for place in places])
+                is_upper = rose == bool(is_new)
                 seen = _Witnesses(pair, alignment, places, bool(is_new)).seen(cloud, part)
-                shares = np.maximum(shares, seen)
-        kinds = [SAME if share >= _SEEN else kind for kind, share in zip(kinds, shares)]
+                is_same |= seen >= np.where(is_upper, _BELOW, _AT)
+        kinds = [SAME if same else kind for kind, same in zip(kinds, is_same)]
     return [place._replace(kind=kind) for place, kind in zip(places, kinds)]
 
 
@@ -114,9 +119,11 @@ class _Witnesses:
             z = z - self._alignment.at(
                 *self._pair.places(*(np.floor(of[inside][is_one]) for of in (row, column)))
             )
-        off = np.minimum(_OFF * np.abs(self._change[place]), _MOST_OFF)
+        change, above = self._change[place], z - self._terrain[place]
+        is_upper = (change > 0) == self._is_new
+        off = np.minimum(_OFF * np.abs(change), np.where(is_upper, *_MOST_OFF))
         self._has[place] = True
-        self._is_there[place[np.abs(z - self._terrain[place]) <= off]] = True
+        self._is_there[place[(above <= off) & ((above >= -off) | is_upper)]] = True
 
 
 def _by_shape(pair: Pair, alignment: Alignment, place: ChangePlace) -> str:

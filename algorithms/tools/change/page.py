@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Iterator, NamedTuple, Sequence
+from typing import Iterator, Sequence
 
 import numpy as np
 
@@ -27,9 +27,8 @@ from ...report.units import Units
 from ...survey.files import Inputs
 from ..contours import corners_of
 from ..review.profile import ProfilePoints, points_along
-from .pair import Pair
-from .places import ChangePlace
-from .stable import Alignment, Sample, Scatter
+from .places import ChangePlace, limits_of
+from .summary import Found
 
 _SHOWN = 10  # places in the table, of which the first have profiles
 _PROFILES = 5
@@ -41,16 +40,6 @@ _LEVEL = "#f5f3ee"
 _RAMP = (CHANGES[0][1], CHANGES[1][1], _LEVEL, CHANGES[3][1], CHANGES[4][1])
 _OLD, _NEW, _BAND = "#8c6d46", "#1a4fd6", "#c9b79a"
 _POINTS = "#b9a58a", "#8fb3ef"
-
-
-class Found(NamedTuple):
-    """What was found out about two terrains."""
-
-    pair: Pair
-    sample: Sample
-    alignment: Alignment
-    scatter: Scatter
-    places: list[ChangePlace]
 
 
 def change_html(
@@ -81,12 +70,9 @@ def _map(found: Found, units: Units) -> Iterator[Html]:
     rows = []
     for start in range(0, pair.grid.whole[0], 64 * step):
         window = slice(start, start + 64 * step), slice(0, pair.grid.whole[1])
-        old, new, _ = pair.cells(window)
-        east, north = pair.places(
-            np.arange(start, start + len(old))[:, None], np.arange(old.shape[1])
-        )
-        change = new - old - found.alignment.at(east, north)
-        rows.append([reduced(values.astype(np.float64), step) for values in (new, change)])
+        strip = pair.strip(window)
+        change = found.alignment.of_strip(pair, strip)
+        rows.append([reduced(values.astype(np.float64), step) for values in (strip.new, change)])
     new, change = (np.vstack(some) for some in zip(*rows))
     shade = hillshade(new, pair.cell * step).astype(np.float64)[..., None]
     colour = ramped(change, _RAMP, -scale, scale).astype(np.float64)
@@ -180,22 +166,22 @@ def _profile(
     """Return the profile of both terrains along a row or a column."""
     pair, whole = found.pair, found.pair.grid.whole
     low, high = (np.clip(end, 0, np.array(whole) - 1).astype(int) for end in line)
-    window = tuple(slice(int(a), int(b) + 1) for a, b in zip(low, high))
-    old, new, spread = (values.ravel() for values in pair.cells((window[0], window[1])))
-    rows, columns = np.mgrid[window]
-    taken = found.alignment.at(*pair.places(rows.ravel(), columns.ravel()))
+    window = slice(low[0], high[0] + 1), slice(low[1], high[1] + 1)
+    strip = pair.strip(window)
+    old, new, spread = (values.ravel() for values in (strip.old, strip.new, strip.spread))
+    aligned = old + found.alignment.of_strip(pair, strip).ravel()
     slope = np.abs(np.gradient(old, pair.cell)) if len(old) > 1 else np.zeros(len(old))
-    limit = np.hypot(found.scatter.limit(spread, slope), found.alignment.limit)
+    limit = limits_of(found.scatter, found.alignment, spread, slope)
     start = low - line[0]
     along = (np.hypot(*start) + np.arange(len(old))) * pair.cell / units.horizontal
     up = units.vertical
     dots = []
-    for some, colour, off in zip(points, _POINTS, (0.0, float(np.mean(taken)))):
+    for some, colour, off in zip(points, _POINTS, (0.0, float(np.nanmean(new - aligned)))):
         if some is not None:
             near = some.heights < np.nanmax(np.fmax(old, new)) / up + 5.0 / up
             dots.append(Dots(some.along[near], some.heights[near] - off / up, colour))
     fine = np.linspace(along[0], along[-1], 4 * len(along))
-    heights = np.interp(fine, along, (new - taken) / up)
+    heights = np.interp(fine, along, aligned / up)
     known = np.isfinite(heights)
     dots.append(Dots(fine[known], heights[known], _NEW))
     first = ChartLine(along, old / up, (old - limit) / up, (old + limit) / up, (_OLD, _BAND))

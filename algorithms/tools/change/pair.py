@@ -42,10 +42,11 @@ _LEAST_HEIGHT = 20.0  # metres: of lower land the ratio says nothing
 
 
 class Strip(NamedTuple):
-    """Rows of both terrains, with some more rows above and below; float32, metres."""
+    """Cells of both terrains, with some more rows above and below; float32, metres."""
 
-    row: int  # the first of these rows in the raster
-    own: slice  # which of them belong to the strip
+    row: int  # the first row and column in the raster
+    column: int
+    own: slice  # which of the rows belong to the strip
     old: np.ndarray
     new: np.ndarray
     spread: np.ndarray  # what 95 of 100 differences do not exceed by both expected errors, or NaN
@@ -84,17 +85,18 @@ class Pair(NamedTuple):
         step = max(_CELLS // columns, 4 * MARGIN)
         for start in range(0, rows, step):
             end, first = min(start + step, rows), max(start - MARGIN, 0)
-            window = slice(first, min(end + MARGIN, rows)), slice(0, columns)
-            yield Strip(first, slice(start - first, end - first), *self.cells(window))
+            strip = self.strip((slice(first, end + MARGIN), slice(0, columns)))
+            yield strip._replace(own=slice(start - first, end - first))
             progress(end / rows)
 
-    def cells(self, window: Window) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Return old and new terrain and the spread of a window."""
+    def strip(self, window: Window) -> Strip:
+        """Return the cells of a window, those that there are."""
         old, new = self.old[window], self.new[window]
         spread = np.full(old.shape, np.nan, dtype=np.float32)
         if self.errors is not None:
             spread = np.hypot(self.errors[0][window], self.errors[1][window])
-        return old, new, spread
+        row, column = (max(part.start, 0) for part in window)
+        return Strip(row, column, slice(0, len(old)), old, new, spread)
 
     def places(self, rows: np.ndarray, columns: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return where cells lie, in metres east and north of the middle of the grid."""
@@ -114,14 +116,16 @@ class Given(NamedTuple):
 
     terrain: Source
     error: Source | None = None
+    crs: str | None = None  # of the points, if the user states it
 
     @property
-    def is_cloud(self) -> bool:
-        """Whether the terrain has to be made of points."""
+    def cloud(self) -> Inputs | None:
+        """The points of which the terrain has to be made; None for a raster."""
         if isinstance(self.terrain, MemoryRaster):
-            return False
+            return None
         path = Path(self.terrain)
-        return path.is_dir() or is_cloud(path) or path.suffix.lower() in (SUFFIX, ".txt")
+        is_one = path.is_dir() or is_cloud(path) or path.suffix.lower() in (SUFFIX, ".txt")
+        return Inputs(path).read_as(self.crs) if is_one else None
 
 
 class _Sampled:
@@ -174,9 +178,9 @@ def pair_of(
     """Return both terrains on one grid: that of `like`, of a raster that is given, or of both
     clouds, whose rasters are made in a folder; refuse what cannot be compared.
     """
-    clouds = [Inputs(date.terrain) if date.is_cloud else None for date in dates]  # type: ignore
+    clouds = [date.cloud for date in dates]
     target = RasterTarget(like=like) if like is not None else None
-    rasters = [date.terrain for date in dates if not date.is_cloud]
+    rasters = [date.terrain for date, cloud in zip(dates, clouds) if cloud is None]
     if target is None and rasters:
         target = RasterTarget(like=rasters[0])
     _refuse_other_clouds(clouds, dates)
@@ -227,8 +231,10 @@ def _made(
     if method is not None:
         steps, ground = [LabelGround(method.parameters)], GroundClasses.of_selection(Selection())
     steps.append(rasters_of([model], {"raster_target": target}, outputs, ground))
-    written = folder / ("points" if cloud.is_survey else "points.las") if method else None
-    Run(tuple(steps), resources=resources).work(cloud, written, progress)
+    # Rasters of many files are made of written ones.
+    written = folder / "points" if cloud.is_survey and method is not None else None
+    run = Run(tuple(steps), resources=resources)
+    run.work(cloud, written, progress, vpc=written and folder / "points.vpc")
     return Given(str(outputs["dtm"]), str(outputs["expected_error"]))
 
 

@@ -17,9 +17,9 @@ from .stable import LIMIT, Alignment, Scatter
 # their limits: so its volume is not cut off at the limit.
 _RIM = 3
 _PART = 0.3
-# Standard errors by which the mean of a place must differ from none. Of many thousand independent
-# areas of a survey, some differ by four by chance.
-_CERTAIN = 4.0
+# Standard errors by which the mean of a place must differ from none: with expected errors, and
+# without, where more errors are unforeseen. Some of many thousand areas differ by chance.
+_CERTAIN, _CERTAIN_OF_SLOPES = 4.0, 6.0
 _NEIGHBOURS = ((0, 1), (1, -1), (1, 0), (1, 1))
 
 
@@ -162,7 +162,7 @@ def _joined(
         core = float(np.count_nonzero(place.is_over)) * pair.cell**2
         share = scatter.share_of_mean(np.array([core, place.area]))
         mean = float(np.mean((np.abs(place.change) / place.limit)[place.is_over])) * LIMIT
-        if mean < _CERTAIN * share[0]:
+        if mean < (_CERTAIN if scatter.by_error else _CERTAIN_OF_SLOPES) * share[0]:
             continue
         by_chance = float(np.sum(place.limit, dtype=np.float64)) * pair.cell**2 * share[1]
         aligned = alignment.limit * place.area

@@ -31,8 +31,10 @@ _TUKEY = 4.685  # of his biweight: larger residuals, in standard deviations, do 
 _NORMAL = 1.4826  # the standard deviation of normal errors in median absolute deviations
 _OF_A_THIRD = 2.32  # the same in what a third of the absolute errors do not exceed
 LIMIT = 1.96  # standard deviations of a limit that 95 of 100 normal errors do not exceed
-# Errors have long tails: 95 of 100 lie within up to so many times what the NMAD lets expect.
-_TAILS = 1.5
+# Errors have long tails: 95 of 100 lie within up to so many times what the NMAD lets expect, where
+# expected errors tell where they are larger, and where only slopes do.
+_TAILS, _TAILS_OF_SLOPES = 1.5, 3.0
+_FINEST = 0.05  # metres: the least limit that follows from slopes
 # Blocks along a side, whose mean residuals tell how certain the plane is.
 _BLOCKS = 8
 _CERTAIN = 3.0  # standard errors from which a tilt is taken off
@@ -108,7 +110,7 @@ class Alignment:
     def of_strip(self, pair: Pair, strip: Strip) -> np.ndarray:
         """Return the change of a strip without shift and tilt, float32."""
         rows, columns = (np.arange(count) for count in strip.old.shape)
-        east, north = pair.places(rows[:, None] + strip.row, columns)
+        east, north = pair.places(rows[:, None] + strip.row, columns + strip.column)
         return (strip.change - self.at(east, north)).astype(np.float32)
 
 
@@ -200,13 +202,13 @@ def aligned(sample: Sample, kind: str, names: tuple[str, str]) -> Alignment:
     residual = sample.change - found.at(sample.east, sample.north)
     stable = _are_stable(residual, sample.spread)
     found = replace(found, stable=float(np.mean(stable)))
-    _check(found, names)
+    _check(found, names, kind != "none")
     east_off, north_off, off = _horizontal(sample, residual, stable)
     found = replace(found, east=east_off, north=north_off, horizontal_error=off)
     return found if kind != "none" else replace(found, shift=0.0, tilt=(0.0, 0.0))
 
 
-def _check(found: Alignment, names: tuple[str, str]) -> None:
+def _check(found: Alignment, names: tuple[str, str], is_used: bool) -> None:
     """Refuse terrains that are not comparable."""
     if abs(found.shift) > _FARTHEST:
         raise BareEarthError(
@@ -214,7 +216,7 @@ def _check(found: Alignment, names: tuple[str, str]) -> None:
             " heights are not above the same datum, or not in the same unit. State or transform"
             " them."
         )
-    if found.stable < LEAST_SHARE:
+    if is_used and found.stable < LEAST_SHARE:
         raise BareEarthError(
             f"Only {found.stable:.0%} of the common area is stable, and a third of it is needed to"
             " align both dates. Compare a larger area, or leave out the alignment."
@@ -318,16 +320,17 @@ def scatter_of(pair: Pair, sample: Sample, alignment: Alignment, progress: Progr
     of_what = (sample.spread if by_error else sample.slope).astype(np.float64)
     edges = np.unique(np.quantile(of_what, np.linspace(0.0, 1.0, _CLASSES + 1)))
     numbers = np.clip(np.searchsorted(edges, of_what, side="right") - 1, 0, max(len(edges) - 2, 0))
+    tails = _TAILS if by_error else _TAILS_OF_SLOPES
     knots, values = [], []
     for number in range(max(len(edges) - 1, 1)):
         inside = numbers == number
         if np.count_nonzero(inside) < _LEAST // 4:
             continue
         usual = LIMIT * _NORMAL * float(np.median(residual[inside]))
-        value = float(np.clip(np.quantile(residual[inside], 0.95), usual, _TAILS * usual))
+        value = float(np.clip(np.quantile(residual[inside], 0.95), usual, tails * usual))
         middle = float(np.median(of_what[inside]))
         knots.append(middle)
-        values.append(np.clip(value / middle, *_FACTORS) if by_error else max(value, 0.01))
+        values.append(np.clip(value / middle, *_FACTORS) if by_error else max(value, _FINEST))
     scatter = Scatter(
         np.array(knots), np.array(values), by_error, _LAGS * pair.cell, np.ones(len(_LAGS)),
         _NORMAL * float(np.median(residual)),
@@ -350,14 +353,10 @@ def _correlation(
     ]
     for number, row in enumerate(corners[0].astype(int)):
         for column in corners[1].astype(int):
-            window = slice(row, min(row + _WINDOW, rows)), slice(column, column + _WINDOW)
-            strip = Strip(row, slice(None), *pair.cells(window))
-            slope = strip.steepness(pair.cell)
-            east, north = pair.places(
-                np.arange(row, row + strip.old.shape[0])[:, None],
-                np.arange(column, column + strip.old.shape[1]),
-            )
-            ratio = (strip.change - alignment.at(east, north)) / scatter.limit(strip.spread, slope)
+            window = slice(row, row + _WINDOW), slice(column, column + _WINDOW)
+            strip = pair.strip(window)
+            limit = scatter.limit(strip.spread, strip.steepness(pair.cell))
+            ratio = alignment.of_strip(pair, strip).astype(np.float64) / limit
             ratio[~(np.abs(ratio) <= 1.5)] = np.nan
             total += float(np.nansum(ratio**2))
             count += int(np.count_nonzero(np.isfinite(ratio)))
