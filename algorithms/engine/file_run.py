@@ -115,7 +115,7 @@ class OneFile(Execution):
         output_weights = [work.step.weight * work.step.weight_of_outputs for work in works]
         working, *writing = progress.part(0.12, 1.0).shares(sum(weights), *output_weights)
         for work in works:
-            work.step = work.step.seeing(self._look, self._frame_of(work.step), working)
+            work.step = work.step.with_all_points(self._read, self._frame_of(work.step), working)
         results = visited(works, points.resources, working)
         for work, result, share in zip(works, results, writing):
             step = work.step
@@ -128,13 +128,13 @@ class OneFile(Execution):
 
     @property
     def _reads_once(self) -> bool:
-        """Whether the points are read only once, as no step gives values or looks at them first."""
-        return not any(isinstance(step, PointStep) or step.looks_first for step in self.steps)
+        """Whether the points are read only once, as no step gives values or reads them first."""
+        return not any(isinstance(step, PointStep) or step.reads_all_first for step in self.steps)
 
     def _frame_of(self, step: Step) -> Frame:
         return survey_frame(self._points.cloud.crs, step.origin)
 
-    def _look(self) -> Iterator[PointCloud]:
+    def _read(self) -> Iterator[PointCloud]:
         """Yield the points with the values of the steps that have worked, part by part."""
         return (part for _, part in with_values(self._points.parts(), self._values))
 

@@ -46,7 +46,7 @@ def run_sink(
     tiles, survey = survey.tiles, results.survey
     frame = survey_frame(survey.crs, step.origin)
     reading, progress = progress.part(0.0, 0.05), progress.part(0.05, 1.0)
-    step = step.seeing(partial(results.parts, unpacking, reading), frame, reading)
+    step = step.with_all_points(partial(results.parts, unpacking, reading), frame, reading)
     grid = BlockGrid(frame, step, survey.stated)
     places = sorted({place for tile in survey.tiles for place in places_of(grid, tile)})
     sources = {place: sources_of(grid, survey, place) for place in step.wanted(places, grid)}

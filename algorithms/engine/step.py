@@ -31,6 +31,31 @@ from .blocks import Blocks, PlaneBlock, Visit
 from .store import Marks, Store
 from .summary import TileSummary
 
+# The calls in their order; * marks those of a survey of many files, + those of `PointStep`, and #
+# those of `Sink`. The properties `blocks`, `origin`, `outputs`, `weight`, `gives_classes`,
+# `only_classes` and `writes_all` are read before.
+#
+# call                 by               with, and what it gives
+# check_survey *       survey_run       the extent and all steps: refuses what cannot be done
+# skips, is_far *+     plan             the header of a file: whether it is left out
+# check_tile *+        plan             the header of a file: refuses it
+# placed               file_run, rows   CRS and extent: the step in that CRS
+# marks                visits.Work      each part of the points, as earlier steps left it: `Marks`
+# tell                 file_run         the counts of `marks`: reports, or refuses the file
+# with_all_points      file_run, sinks  a function that reads all points: the step with what follows
+# wanted *#            sinks            the blocks with points: those that are worked on
+# in_block             visits           a `Visit` of a block: its result
+# keep                 visits           the result of a block: what is not in the store
+# end                  visits           what `keep` gave for all blocks: the result of the step
+# save, load *#        jobs, sinks      the results of a block to a file, and from it
+# finish               file_run, sinks  the result: writes `outputs`, gives a summary
+# result +             file_points      a file: its `PointResult`
+#   applied, add       file_points      each part again, with its values: classes and counts
+#   check *, tell      file_points      report on the file
+#   kept, edits        file_points      which points are written, and what changes but classes
+#   summary            file_points      the numbers of points by class: the summary of the file
+# tell_of_survey *+    survey_run       the summaries of all files: reports on them
+
 _Step = TypeVar("_Step", bound="Step")
 
 # Returns an array of one value for each point of a file, given the type of the values.
@@ -64,8 +89,8 @@ class Step:
         return True
 
     @property
-    def looks_first(self) -> bool:
-        """Whether `seeing` reads the points."""
+    def reads_all_first(self) -> bool:
+        """Whether `with_all_points` reads them."""
         return False
 
     @property
@@ -92,8 +117,10 @@ class Step:
         unsuitable, or an output that these steps cannot make of many files.
         """
 
-    def seeing(self: _Step, look: ReadPoints, frame: Frame, progress: Progress = SILENT) -> _Step:
-        """Return the step with parameters that depend on all points, which `look` reads."""
+    def with_all_points(
+        self: _Step, read: ReadPoints, frame: Frame, progress: Progress = SILENT
+    ) -> _Step:
+        """Return the step with parameters that depend on all points, which `read` reads."""
         return self
 
     def marks(self, part: PointCloud, counts: Any) -> Marks:

@@ -3,7 +3,7 @@
 It follows from points with a mask of ground, by any method: seven pieces of evidence are found for
 each cell, and each makes the error larger by a factor from a table. ``python -m
 benchmarks.expected_error`` fits the table and measures how often the errors of real terrain models
-lie within what is expected; docs/check.md has the figures.
+lie within what is expected; docs/expected-error.md has the figures.
 """
 
 from __future__ import annotations

@@ -344,7 +344,7 @@ TOOL = FileTool(
     about="Class 2 is ground, and the reference holds the same points, or a part of them. Type I"
     " error: the share of the reference's ground that was rejected. Type II error: the share of all"
     " other points that was accepted as ground. All figures are in percent.",
-    page="check#against-a-reference",
+    page="assess",
     words=(CLOUD, "ground,accuracy,quality,error,validation,kappa,confusion matrix,reference"),
     numbers=(
         ("POINT_COUNT", "Points"),

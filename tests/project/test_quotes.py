@@ -126,7 +126,7 @@ def test_messages_that_a_page_quotes_are_those_of_the_code(page):
 
 
 def test_warnings_are_quoted_and_one_that_the_code_does_not_say_is_found():
-    assert len(messages((ROOT / "docs/check.md").read_text("utf-8"))) >= 3
+    assert len(messages((ROOT / "docs/which-method.md").read_text("utf-8"))) >= 3
     row = "| *Hardly any ground was found: fewer than 2 % of the* | x |"
     right = f"| Warning | When |\n|---|---|\n{row}\n"
     assert unknown_messages(right) == []

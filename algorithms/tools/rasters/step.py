@@ -85,7 +85,7 @@ class MakeRasters(RasterJob, Sink):
         return 3.0 + len(self.files.wanted)
 
     @property
-    def looks_first(self) -> bool:
+    def reads_all_first(self) -> bool:
         """Whether all points are read to find the heights of the constraints."""
         return self.constraints.any
 
@@ -121,12 +121,14 @@ class MakeRasters(RasterJob, Sink):
         cells = cell_grid(self.target, usual, place.crs, place.box, progress)
         return replace(self, placed_cells=cells)
 
-    def seeing(self, look: ReadPoints, frame: Frame, progress: Progress = SILENT) -> MakeRasters:
+    def with_all_points(
+        self, read: ReadPoints, frame: Frame, progress: Progress = SILENT
+    ) -> MakeRasters:
         """Return the step with the vertices of its constraints; see `fixed_terrain`."""
         if not self.constraints.any:
             return self
         cell = self.cell / VERTICES_A_SIDE
-        fixed = fixed_terrain(self.constraints, look(), frame, self.ground, cell, progress)
+        fixed = fixed_terrain(self.constraints, read(), frame, self.ground, cell, progress)
         return replace(self, fixed=fixed)
 
     def check_survey(self, box: Box, steps: Sequence[Step]) -> None:

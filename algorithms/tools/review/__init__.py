@@ -275,7 +275,7 @@ TOOL = FileTool(
     " ground', 'ground', which continues the ground round the place into it, or 'skip'. Give the"
     " layer to `classify()` as corrections, and to the next `review()`: places with an answer are"
     " left out, and those that were skipped come last.",
-    page="check#places-to-review",
+    page="expected-error#places-to-review",
     words=(RASTER, TERRAIN, "review,error,uncertainty,confidence,quality"),
     run_name="places to review",
     numbers=(("PLACE_COUNT", "Places"), ("EXPECTED_RMSE", "Expected RMSE, m")),
