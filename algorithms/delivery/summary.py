@@ -14,7 +14,7 @@ _NO_CHECKPOINTS = "accuracy", "not measured: no checkpoints are given"
 # The facts on accuracy that matter most, by their names.
 _MAIN = (
     "look at this", "checkpoints", "not counted", "points NVA", "points VVA", "verdict",
-    "held out, all", "what this tells",
+    "held out, all", "what it shows",
 )  # fmt: skip
 
 

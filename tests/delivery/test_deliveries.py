@@ -678,7 +678,7 @@ def test_the_command_prints_what_matters(made, scene, tmp_path, capsys):
     assert first.startswith(f"{target}: {summary.ground_count:,} of {summary.point_count:,} points")
     told = {row[:15].rstrip(): row[16:] for row in rows}
     titles = [
-        "classes", "water", "accuracy", "held out, all", "what this tells", "comparisons",
+        "classes", "water", "accuracy", "held out, all", "what it shows", "comparisons",
         "expected", "cell size", "page",
     ]  # fmt: skip
     assert re.search(r"expected RMSE of the terrain model is \d+\.\d\d m", told["expected"])
@@ -686,9 +686,9 @@ def test_the_command_prints_what_matters(made, scene, tmp_path, capsys):
     counts = (f"{value}: {count:,}" for value, count in summary.class_counts.items())
     assert told["classes"] == ", ".join(counts) and told["cell size"] == "1 m"
     assert told["held out, all"] == summary.check.hold_out.all.text and told["water"]
-    assert told["what this tells"] == summary.check.hold_out.limits()
+    assert told["what it shows"] == summary.check.hold_out.limits()
     page = (target / "index.html").read_text(encoding="utf-8")
-    assert "Accuracy of the terrain" in page and "What held-out points tell" in page
+    assert "Accuracy of the terrain" in page and "What held-out points show" in page
     share = summary.quality.ground_void_share
     assert (f"{100 * share:.1f} % of the area is farther than 3 m" in page) == (share > 0)
     # The scene is sparse, and the specification asks for 2 points in a square metre.

@@ -58,9 +58,9 @@ class CheckOptions(ParameterSet):
         minimum=0.0001,
         maximum=0.5,
         advanced=True,
-        help="Leaves out so large a share of the ground points, such as 0.02, and measures how well"
-        " the others predict them, on open land, under trees and on steep land. This needs no"
-        " checkpoints, but it does not tell how right the heights are.",
+        help="Leaves out this share of the ground points, such as 0.02, and measures how well the"
+        " others predict them, on open land, under trees and on steep land. This needs no"
+        " checkpoints, but it does not show whether the heights are right.",
     )
 
 
@@ -231,8 +231,8 @@ TOOL = FileTool(
         Input(
             "vegetated",
             "words",
-            help="A land cover with one of these words is vegetated, and no other. Empty: words"
-            " such as forest, crops and brush in several languages.",
+            help="Only land covers with one of these words are vegetated. Empty: words such as"
+            " forest, crops and brush in eight languages.",
             label="Vegetated land covers",
             optional=True,
             advanced=True,

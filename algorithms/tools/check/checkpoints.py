@@ -18,7 +18,7 @@ _UNIT_NAMES: dict[float | None, str] = {1.0: "metres", FOOT: "feet", US_FOOT: "U
 # The name of a column, its heights, and metres in a unit of them if it is known.
 OtherHeights = Tuple[str, np.ndarray, Optional[float]]
 # Nodata values in the place of heights, in any unit; and values that are nodata only if the ground
-# is farther away than so many metres.
+# is more than `_ELSEWHERE` metres away.
 _NODATA = (-999.0, -999.9, -999.99, -99.0, -99.9, -99.99, 9999.0, 9999.9, 9999.99, 32767.0)
 _DOUBTFUL = (0.0, -1.0, 999.0)
 _ELSEWHERE = 5.0

@@ -29,8 +29,8 @@ def without_accents(text: str) -> str:
 
 
 def parts_of(text: str) -> list[str]:
-    """Return the words and numbers in a text, also those that only capitals separate: Tall, Grass
-    and 2 in "TallGrass_2".
+    """Return the words and numbers in a text, which capitals may separate: Tall, Grass and 2 in
+    "TallGrass_2".
     """
     return _PARTS.findall(without_accents(text))
 

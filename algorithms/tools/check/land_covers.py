@@ -130,7 +130,7 @@ def kinds_of(
     checkpoints: Checkpoints, covers: LandCovers, progress: Progress
 ) -> tuple[list[str], dict[str, int]]:
     """Return `NVA`, `VVA` or `CONTROL` for each checkpoint, if need be by the names of checkpoints,
-    and the unknown land covers, of which a message warns.
+    and the unknown land covers, which a warning names.
     """
     uses = checkpoints.types or [""] * checkpoints.count
     found = list(map(covers.kind, uses, checkpoints.covers))
@@ -152,9 +152,9 @@ def kinds_of(
         names = [f"{name} ({count:,})" for name, count in unknown.most_common(_MOST_NAMES)]
         more = len(unknown) - len(names)
         progress.warning(
-            f"Land covers that are not known, which count as not vegetated: {', '.join(names)}"
-            f"{f' and {more:,} more' if more else ''}. If some are, say which with"
-            f" {option('vegetated')}."
+            f"Unknown land covers count as not vegetated: {', '.join(names)}"
+            f"{f' and {more:,} more' if more else ''}. If some are vegetated, name"
+            f" their words with {option('vegetated')}."
         )
     return [kind or NVA for kind in found], dict(unknown.most_common())
 
@@ -217,7 +217,7 @@ def _parts(text: str) -> list[list[str]]:
 
 
 def _singular(word: str) -> tuple[str, ...]:
-    """Return a word, and words of which it may be the plural."""
+    """Return a word, and the words whose plural it may be."""
     return tuple(word[: len(word) - len(end)] for end in ("", "s", "x", "es") if word.endswith(end))
 
 

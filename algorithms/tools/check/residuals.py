@@ -96,7 +96,7 @@ def residuals_of(
     if error is not None:
         expected = HeightSampler(error).heights(x, y) * (error.unit or up)
     if model is not None:
-        _tell_of_gaps(checkpoints, np.isnan(dtm), progress)
+        _report_gaps(checkpoints, np.isnan(dtm), progress)
     places = np.column_stack((x, y)) * crs.horizontal_unit
     heights = ground.heights(places, max_edge, progress).heights
     if model is not None:
@@ -167,7 +167,7 @@ def _with_fitting_heights(
     if not doubts[0] or all(doubts):
         return checkpoints
     name, z, _ = columns[doubts.index("")]
-    progress.warning(f"{doubts[0]} The heights in {name} fit: these are taken instead.")
+    progress.warning(f"{doubts[0]} The heights in {name} fit, and are used instead.")
     return checkpoints.with_heights(z)
 
 
@@ -180,7 +180,7 @@ def _raster(source: str | None, ground: SurveyGround) -> HeightRaster | None:
     return raster
 
 
-def _tell_of_gaps(checkpoints: Checkpoints, gaps: np.ndarray, progress: Progress) -> None:
+def _report_gaps(checkpoints: Checkpoints, gaps: np.ndarray, progress: Progress) -> None:
     """Warn of checkpoints at which the terrain model has no value, or refuse it."""
     if gaps.all():
         raise BareEarthError(
@@ -242,8 +242,8 @@ def _cause(offset: float) -> str:
         return "Another unit or another height looks like this. Check the column of the heights."
     if offset >= least:
         return (
-            "Heights above the ellipsoid and above the geoid differ like this: one of both is of"
-            " the other kind. Give both in one vertical datum."
+            "Heights above the ellipsoid and above the geoid differ like this. Give both in one"
+            " vertical datum."
         )
     return (
         "Another vertical datum looks like this, or the height of an antenna or a pole that was"

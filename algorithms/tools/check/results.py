@@ -46,7 +46,7 @@ class Fact(NamedTuple):
     name: str  # in the terminal
     title: str  # on pages
     text: str
-    errors: Figures | None = None  # of which the text tells
+    errors: Figures | None = None  # that the text reports
 
 
 # The figures of a `Check` and of its `HoldOut`, by attribute: their names and titles.
@@ -71,7 +71,7 @@ class Expectation:
     """How many errors at checkpoints are within the expected error of the terrain model."""
 
     count: int  # counted checkpoints with an error and an expected error
-    inside: int  # of these, those whose error is at most the expected one
+    inside: int  # their number with an error of at most the expected one
     factor: float | None  # for the expected error to hold 95 %; None for too few checkpoints
 
     @classmethod
@@ -103,8 +103,8 @@ class Check:
     vva: Figures | None = None  # errors of the TIN on land with vegetation
     dtm_nva: Figures | None = None  # errors of the terrain model on both kinds of land
     dtm_vva: Figures | None = None
-    low_confidence: Figures | None = None  # errors of both in low confidence areas
-    dtm_low_confidence: Figures | None = None
+    low_confidence: Figures | None = None  # of ground points, in low confidence areas
+    dtm_low_confidence: Figures | None = None  # of the terrain model
     not_counted: dict[str, list[str]] | None = None  # names by the reason as in `REASONS`
     # unknown land covers, and how many checkpoints have them, which count as without vegetation
     unknown_covers: dict[str, int] | None = None
@@ -207,7 +207,7 @@ class Check:
         )
         yield Fact("held out", "Points held out", text)
         yield from _errors(left, _HELD_OUT)
-        yield Fact("what this tells", "What held-out points tell", left.limits())
+        yield Fact("what it shows", "What held-out points show", left.limits())
 
     def lines(self) -> list[str]:
         """Return the result as lines of text for a terminal or a log."""
