@@ -92,10 +92,11 @@ class Judge:
         """Return the verdict on a ground mask."""
         kind, earth = self._kind, self._truth & ~self._thing
         share, around = (100.0 * float(np.mean(ground[some])) for some in (self._thing, earth))
-        # Where the true ground says nothing, no error can be told.
+        # Where the true ground says nothing, as below a ship, no error can be told.
         told = np.isfinite(self._true_heights)
         error = np.nan_to_num(self._heights(ground)[told] - self._true_heights[told], nan=-99.0)
-        metres = float(error[np.argsort(np.abs(error))[int(0.9 * (len(error) - 1))]])
+        error = error[np.argsort(np.abs(error))]
+        metres = float(error[int(0.9 * (len(error) - 1))]) if len(error) else 0.0
         limit = kind.off + (0.1 * self._sizes[1] if kind.stays else 0.0)
         wrong = 100.0 - share if kind.stays else share
         is_held = wrong <= kind.wrong and abs(metres) <= limit and around >= _ROUND

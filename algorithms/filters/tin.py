@@ -272,6 +272,7 @@ def _classic(resolved: TinDensification, values: Lidar360Preset) -> Pipeline:
                     least_area=0.0,
                     most_cut=1.0,
                     row_width=0.0,
+                    vault_level=0.0,
                 ),
                 rocks=None,
                 low_banks=LowBanks(sparse=0.0, most_in_row=1.0),

@@ -16,6 +16,7 @@ import numpy as np
 from . import plain_shapes as shapes
 from .plain_things import (
     Plain,
+    afloat,
     by_house,
     cut_off,
     earth,
@@ -26,6 +27,7 @@ from .plain_things import (
     outliers,
     plants,
     solid,
+    terraced,
     understory,
     whole,
     wooded,
@@ -98,6 +100,7 @@ benches 8x5/0/4 10x8/5/2
 ruin 15x0.8/5/8 25x1.2/0/4
 mound 12x1.5/0/4 25x4/0/1 15x3/15/2
 heap 15x4/0/4 30x9/0/2
+table 50x20x8/0/4 50x20x12/5/2
 butte 40x8/0/4 60x13/10/2 75x13/0/4 90x20/5/1
 bund 0.6x1.5/0/8 0.5x0.8/0/8 0.6x1/10/20 1x1.2/5/4
 """),
@@ -137,9 +140,16 @@ angled 60x50x3/0/4 120x90x5/3/1.5
 stepped 100x50x4/0/2 60x30x3/5/4
 aisled 60x45x4x3/0/4 70x50x4x5/2/4 110x70x5x3/3/2 110x70x5x5/3/2
 drum 12x6/0/4 30x10/3/2
-hemisphere 40/0/8 24/5/4
+hemisphere 40/0/8 24/5/4 60/3/2
+arch=vaults 60x30x12x0x1/0/8 80x40x16x0x1/2/4
 blocks=boxes 30x20x6x5x2/0/4 40x25x9x8x2/5/2 25x15x5x3x3/0/8
 grandstand=lean_to 14x50x2.2/0/4 40x20x2.5/3/8
+"""),
+    (terraced, _GOES, 5.0, 0.3, """
+terraced-halls 90x60x6x12x3x3/0/2 60x40x5x16x3x2/2/4
+"""),
+    (afloat, _GOES, 2.0, 0.3, """
+ship 120x14x4/0/4 60x10x3/0/2
 """),
     (solid, _GOES, 5.0, 0.3, """
 a-frame 16x10x8/0/8 12x8x7/5/4 20x12x8/0/2 10x6x5/10/8

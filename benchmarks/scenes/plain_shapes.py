@@ -181,6 +181,14 @@ def butte(u, v, width, height):
     return (height + rough) * _trapezoid(np.hypot(u, v) + bend, width - 3.0, 3.0)
 
 
+def table(u, v, length, width, height):
+    """A table mountain of rock, whose sides stand at 70 degrees."""
+    rough = 0.2 * np.sin(u * 1.3 + 0.7 * v) * np.sin(v * 1.1 - 0.4 * u)
+    bend = 1.5 * np.sin(u / 5.0 + v / 7.0)
+    out = np.maximum(np.abs(u) - length / 2, np.abs(v) - width / 2) + bend
+    return (height + rough) * np.clip(-out / (0.36 * height), 0.0, 1.0)
+
+
 def heap(u, v, width, height):
     return -funnel(u, v, width, height)
 
@@ -272,6 +280,27 @@ def crop_rows(u, v, height, cover, apart):
     """Rows of a crop, whose cover is in percent."""
     on = np.abs(np.mod(v / apart, 1.0) - 0.5) < cover / 200.0
     return np.where(on, height, -np.inf)
+
+
+def steps(v, width, gap, count, rise):
+    """Return how high level terraces lie, each `rise` higher than the one before."""
+    place = (v / (width + gap) + count / 2) * np.ones_like(v)
+    number = np.clip(np.floor(place), 0.0, count - 1.0)
+    within = np.clip((place - number) * (width + gap) / _FACE, 0.0, 1.0)
+    return rise * np.where(number > 0, number - 1.0 + within, 0.0)
+
+
+def terraced_halls(u, v, length, width, eaves, gap, count, rise):
+    """Halls on terraces, each in the middle of its own."""
+    return flat(u, _row(v, width, gap, count), length, width, eaves)
+
+
+def ship(u, v, length, width, deck):
+    """A ship whose stern has a bridge, beside a quay along the middle."""
+    across = v + width / 2 + 1.0
+    narrow = np.clip((length / 2 - u) / width, 0.0, 1.0)
+    hull = flat(u, across / np.maximum(narrow, 1e-6), length, width, deck)
+    return hull + 8.0 * ((u < -0.35 * length) & (u > -0.45 * length))
 
 
 def aisled(u, v, length, width, eaves, aisle):

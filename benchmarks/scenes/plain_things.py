@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import zlib
+from dataclasses import replace
 from typing import TYPE_CHECKING, Callable, NamedTuple
 
 import numpy as np
@@ -28,6 +29,7 @@ _CROWNS, _THROUGH = 0.7, 0.4
 # Share of the pulses that strike leaves where there are any, and of those that strike plants, that
 # have a second return from the ground.
 _LEAVES, _SECOND = 0.85, 0.4
+_COLUMNS = "classes", "return_number", "number_of_returns"
 # Above this, points of an object can be told from the ground.
 _TOLD, _TOLD_OF_PLANTS = 0.3, 0.2
 # A house that stands beside earth: its sides, its height, and how far its middle is from the thing.
@@ -98,6 +100,15 @@ class _Site:
         points = Points(*(np.rint(xyz / SCALE) * SCALE))
         scene = Scene(points, *columns, self.row.name, 0, Settings(), corner, terrain)
         return Plain(scene, np.append(thing, [False] * 4), self.angle)
+
+
+class _Terraces(_Site):
+    """Land in terraces, one for each hall of a row."""
+
+    def land(self, x, y):
+        """Return the height of the land without the halls."""
+        _, width, _, *rest = self.row.sizes
+        return super().land(x, y) + shapes.steps(_turned(x, y, self.angle)[1], width, *rest)
 
 
 def _extent(shape: Callable[..., np.ndarray], sizes: tuple[float, ...]) -> float:
@@ -206,10 +217,10 @@ def _patches(random: np.random.Generator, x, y, length: float) -> np.ndarray:
     return np.argsort(np.argsort(field)) / max(len(field) - 1, 1)
 
 
-def solid(row: Row, is_level: bool = True) -> Plain:
+def solid(row: Row, is_level: bool = True, land: type[_Site] = _Site) -> Plain:
     """Return what stands on a level floor, with its eaves above the highest ground below it."""
     shape, sizes = row.kind.shape, row.sizes
-    site = _Site(row, max(_LEAST, _extent(shape, sizes) + 2 * _ROUND))
+    site = land(row, max(_LEAST, _extent(shape, sizes) + 2 * _ROUND))
     rise = site.rise(site.x, site.y)
     on = np.isfinite(rise)
     highest = float(site.land(site.x, site.y)[on].max())
@@ -222,6 +233,26 @@ def solid(row: Row, is_level: bool = True) -> Plain:
     x, y, z, is_solid = _struck(site, site.land, top)
     thing = is_solid & (z > site.land(x, y) + _TOLD)
     return site.plain(x, y, z, np.where(is_solid, BUILDING, GROUND), thing, site.land)
+
+
+def terraced(row: Row) -> Plain:
+    """Return halls on terraces."""
+    return solid(row, False, _Terraces)
+
+
+def afloat(row: Row) -> Plain:
+    """Return a ship at a quay; the water sends no pulse back."""
+    plain = solid(row)
+    scene, (west, south) = plain.scene, plain.scene.corner
+    x, y, _ = scene.points
+    dry = plain.thing | (_turned(x - west, y - south, plain.angle)[1] > 0.0)
+    columns = scene.classes, scene.return_number, scene.number_of_returns
+    scene = replace(
+        scene,
+        points=scene.points.take(dry),
+        **dict(zip(_COLUMNS, (column[dry] for column in columns))),
+    )
+    return Plain(scene, plain.thing[dry], plain.angle)
 
 
 def loose(row: Row) -> Plain:

@@ -16,11 +16,13 @@ ROWS = {row.name: row for row in rows()}
 STAY = (
     "moat-50x6x2.5-slope0-2pm2-b", "channels-26x4x2.5-slope0-8pm2-b",
     "channels-40x6x3-slope0-2pm2-b", "approach-14x6-slope0-2pm2-a", "bund-0.6x1.5-slope0-8pm2-b",
+    "butte-60x13-slope10-2pm2-b",
 )  # fmt: skip
 GO = (
     "blocks-25x15x5x3x3-slope0-8pm2-a", "grandstand-14x50x2.2-slope0-4pm2-a",
-    "solar-park-40x3x0.5x0.36x3.5x6-slope5-8pm2-a", "stacks-10x8x1.2x4x2-slope0-8pm2-b",
+    "solar-park-40x3x0.5x0.36x3.5x6-slope5-8pm2-a", "stacks-10x8x1.2x4x2-slope0-8pm2-a",
     "low-hedges-40x2x1.5x15x2-slope0-8pm2-b", "layers-20x12x10-slope0-8pm2-a",
+    "hemisphere-40-slope0-8pm2-a", "arch-80x40x16x0x1-slope2-4pm2-b",
     "cushions-4x1.8x8-slope0-20pm2-a", "cushions-3x1.2x10-slope5-12pm2-b",
 )  # fmt: skip
 

@@ -15,6 +15,11 @@ from .regions import bends
 
 # Largest distance in metres of an even cell from the mean of two opposite neighbours.
 _BEND = 0.15
+# A region is a vault if this share of its cells lie above the mean of the four cells some metres
+# north, south, east and west of them. Those of smaller areas, in square metres, may be rocks.
+_CONVEX = 0.85
+_ROUND = 3.0
+_VAULT = 400.0
 # Regions of the first and of the second cell of pairs of cells; -1 for cells that are not raised.
 _Pairs = tuple[np.ndarray, np.ndarray]
 # Pairs of cells (indices into the flattened grid), and the sign of the step between them.
@@ -54,6 +59,17 @@ class RaisedRegions(NamedTuple):
             for first, _ in kinds:
                 sides += np.bincount(first, minlength=len(sides))
         return 2.0 * self.area / np.maximum(sides * self.size, self.size)
+
+    @property
+    def vaults(self) -> np.ndarray:
+        """Which regions are domes or vaults, by their curve; boolean, shape (regions,)."""
+        # Sides of hills end in hollows, and their tops are rough.
+        k = max(round(_ROUND / self.size), 1)
+        z = np.pad(self.filled, k, mode="edge")
+        round_it = z[2 * k :, k:-k] + z[: -2 * k, k:-k] + z[k:-k, 2 * k :] + z[k:-k, : -2 * k]
+        above = (4.0 * self.filled > round_it).ravel()[self.cells]
+        cells, convex = (np.bincount(self.number, some, len(self.area)) for some in (None, above))
+        return (self.area >= _VAULT) & (convex >= _CONVEX * cells)
 
     def widths(self, ground: np.ndarray) -> np.ndarray:
         """Return the length in metres of the longest level piece of the border of each region with
@@ -178,6 +194,8 @@ class Rocks(Rule):
             mean = np.bincount(number, values) / count
             square = (values - mean[number]) * values
             is_rock &= np.bincount(number, square) >= self.deviation**2 * count
+        if is_rock.any():
+            is_rock &= ~regions.vaults
         for rock in np.flatnonzero(is_rock):
             z = np.sort(regions.heights[number == rock])
             in_band = np.searchsorted(z, z + self.band) - np.arange(len(z))

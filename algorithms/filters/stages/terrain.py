@@ -129,6 +129,8 @@ class GentleBorder(Rule):
     row_above: float = 0.5  # least mean height above the ground in metres
     row_sharp: float = 0.4
     row_piece: float = 0.5
+    # A tall region that is a vault is no terrain if less than this share of its border is level.
+    vault_level: float = 0.5
     small: float = 0.0
     tall: float = 2.0
     steep: float = 0.45
@@ -157,7 +159,8 @@ class GentleBorder(Rule):
             widths = regions.widths(ground)
             gentle &= ~doubtful | (widths >= self.width)
             gentle &= ~row | (widths >= self.row_piece * level * regions.size)
-        return gentle
+        tall = gentle & (regions.above > self.tall) & (level < self.vault_level * border)
+        return gentle & ~(tall & regions.vaults) if tall.any() else gentle
 
 
 @dataclass(frozen=True)
@@ -285,7 +288,7 @@ class GentleRegions(GridRule):
 # For sites where earth is moved: low berms and stockpiles without a sharp edge are terrain.
 SITE = GentleRegions(
     in_images=True,
-    gentle_border=GentleBorder(least_area=0.0, most_cut=1.0, row_width=0.0),
+    gentle_border=GentleBorder(least_area=0.0, most_cut=1.0, row_width=0.0, vault_level=0.0),
     low_banks=LowBanks(sparse=0.0),
 )
 
