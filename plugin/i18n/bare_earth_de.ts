@@ -52,6 +52,10 @@
         <translation>Fügt jedem Punkt einer Punktwolke seine Höhe über den Bodenpunkten hinzu.</translation>
     </message>
     <message>
+        <source>Alignment</source>
+        <translation>Ausrichtung</translation>
+    </message>
+    <message>
         <source>All files</source>
         <translation>Alle Dateien</translation>
     </message>
@@ -214,6 +218,14 @@
     <message>
         <source>Certain</source>
         <translation>Sicher</translation>
+    </message>
+    <message>
+        <source>Change between two surveys</source>
+        <translation>Veränderung zwischen zwei Befliegungen</translation>
+    </message>
+    <message>
+        <source>Change of the ground</source>
+        <translation>Veränderung des Bodens</translation>
     </message>
     <message>
         <source>Changes nothing, and is left out next time.</source>
@@ -396,14 +408,6 @@
         <translation>Komprimierte Punktwolken (.laz, .copc.laz) brauchen das Python-Paket lazrs, das kaum ein QGIS mitbringt. Hier bekommen Sie es aus dem Python Package Index (0,6 MB) oder, ohne Internet, aus einer Wheel-Datei von lazrs für {}. Es wird in Ihrem Profil gespeichert; QGIS selbst ändert sich nicht.</translation>
     </message>
     <message>
-        <source>Confidence</source>
-        <translation>Verlässlichkeit</translation>
-    </message>
-    <message>
-        <source>Confidence of the terrain model</source>
-        <translation>Verlässlichkeit des Geländemodells</translation>
-    </message>
-    <message>
         <source>Context round the window</source>
         <translation>Umgebung des Fensters</translation>
     </message>
@@ -432,10 +436,6 @@
         <translation>Gezählte Kontrollpunkte</translation>
     </message>
     <message>
-        <source>Deciding rules</source>
-        <translation>Entscheidende Regeln</translation>
-    </message>
-    <message>
         <source>Delivery</source>
         <translation>Lieferung</translation>
     </message>
@@ -462,6 +462,10 @@
     <message>
         <source>Derived water surface</source>
         <translation>Abgeleitete Wasseroberfläche</translation>
+    </message>
+    <message>
+        <source>Detection limit</source>
+        <translation>Nachweisgrenze</translation>
     </message>
     <message>
         <source>Difference between strips</source>
@@ -528,6 +532,14 @@
         <translation>Fehler der Kontrollpunkte</translation>
     </message>
     <message>
+        <source>Error of the volume down, m3</source>
+        <translation>Fehler des Volumens nach unten, m³</translation>
+    </message>
+    <message>
+        <source>Error of the volume up, m3</source>
+        <translation>Fehler des Volumens nach oben, m³</translation>
+    </message>
+    <message>
         <source>Errors</source>
         <translation>Fehler</translation>
     </message>
@@ -550,6 +562,14 @@
     <message>
         <source>Expected error (95 %)</source>
         <translation>Erwarteter Fehler (95 %)</translation>
+    </message>
+    <message>
+        <source>Expected error of the new terrain model</source>
+        <translation>Erwarteter Fehler des neuen Geländemodells</translation>
+    </message>
+    <message>
+        <source>Expected error of the old terrain model</source>
+        <translation>Erwarteter Fehler des alten Geländemodells</translation>
     </message>
     <message>
         <source>Expected error up to {} m on {} m²</source>
@@ -596,6 +616,10 @@
         <translation>Hohes Rauschen finden (18)</translation>
     </message>
     <message>
+        <source>Find the ground of point clouds</source>
+        <translation>Boden der Punktwolken suchen</translation>
+    </message>
+    <message>
         <source>Find water</source>
         <translation>Gewässer finden</translation>
     </message>
@@ -636,6 +660,10 @@
         <translation>Findet, wo ein Geländemodell falsch sein kann: was zuerst anzusehen ist, und warum.</translation>
     </message>
     <message>
+        <source>Finds where the ground changed between two surveys, how much, and how surely.</source>
+        <translation>Findet, wo sich der Boden zwischen zwei Befliegungen verändert hat, wie stark und wie sicher.</translation>
+    </message>
+    <message>
         <source>First and single returns</source>
         <translation>Erste und einzige Echos</translation>
     </message>
@@ -646,10 +674,6 @@
     <message>
         <source>First returns per m²</source>
         <translation>Erste Echos je m²</translation>
-    </message>
-    <message>
-        <source>Five, for the expected error</source>
-        <translation>Fünf, für den erwarteten Fehler</translation>
     </message>
     <message>
         <source>Flat land, fields</source>
@@ -818,10 +842,6 @@
     <message>
         <source>Ground tolerance on slopes</source>
         <translation>Bodentoleranz am Hang</translation>
-    </message>
-    <message>
-        <source>Ground: {}</source>
-        <translation>Boden: {}</translation>
     </message>
     <message>
         <source>HTML files (*.html)</source>
@@ -1008,10 +1028,6 @@
         <translation>Kleinste Fläche eines Dachs</translation>
     </message>
     <message>
-        <source>Least confidence</source>
-        <translation>Geringste Verlässlichkeit</translation>
-    </message>
-    <message>
         <source>Least expected error</source>
         <translation>Kleinster erwarteter Fehler</translation>
     </message>
@@ -1062,10 +1078,6 @@
     <message>
         <source>Longest edge of a triangle</source>
         <translation>Längste Kante eines Dreiecks</translation>
-    </message>
-    <message>
-        <source>Looks at the ground</source>
-        <translation>Blicke auf den Boden</translation>
     </message>
     <message>
         <source>Low confidence areas</source>
@@ -1176,6 +1188,10 @@
         <translation>Negative Offenheit</translation>
     </message>
     <message>
+        <source>New survey</source>
+        <translation>Neue Befliegung</translation>
+    </message>
+    <message>
         <source>Next</source>
         <translation>Weiter</translation>
     </message>
@@ -1236,10 +1252,6 @@
         <translation>Kein Boden, außer mit einer klassischen Voreinstellung</translation>
     </message>
     <message>
-        <source>Not ground: {}</source>
-        <translation>Kein Boden: {}</translation>
-    </message>
-    <message>
         <source>Not installed yet: .laz and .copc.laz files cannot be read or written.</source>
         <translation>Noch nicht installiert: Dateien .laz und .copc.laz lassen sich weder lesen noch schreiben.</translation>
     </message>
@@ -1248,8 +1260,8 @@
         <translation>Anzahl der Flugstreifen</translation>
     </message>
     <message>
-        <source>One</source>
-        <translation>Einer</translation>
+        <source>Old survey</source>
+        <translation>Alte Befliegung</translation>
     </message>
     <message>
         <source>One light</source>
@@ -1274,14 +1286,6 @@
     <message>
         <source>Overlap of strips</source>
         <translation>Überlappung der Flugstreifen</translation>
-    </message>
-    <message>
-        <source>Overview of the classes</source>
-        <translation>Übersicht der Klassen</translation>
-    </message>
-    <message>
-        <source>Overview of the virtual point cloud</source>
-        <translation>Übersicht der virtuellen Punktwolke</translation>
     </message>
     <message>
         <source>Own choice of outputs</source>
@@ -1314,6 +1318,10 @@
     <message>
         <source>Places</source>
         <translation>Stellen</translation>
+    </message>
+    <message>
+        <source>Places of change</source>
+        <translation>Orte der Veränderung</translation>
     </message>
     <message>
         <source>Places to review</source>
@@ -1406,6 +1414,10 @@
     <message>
         <source>Previous</source>
         <translation>Zurück</translation>
+    </message>
+    <message>
+        <source>Probably no earth</source>
+        <translation>Wahrscheinlich kein Boden</translation>
     </message>
     <message>
         <source>Products</source>
@@ -1548,12 +1560,12 @@
         <translation>Richtig so (R)</translation>
     </message>
     <message>
-        <source>Rivers</source>
-        <translation>Flüsse</translation>
+        <source>Risen</source>
+        <translation>Höher</translation>
     </message>
     <message>
-        <source>Rule that decided each cell</source>
-        <translation>Regel, die über jede Zelle entschied</translation>
+        <source>Rivers</source>
+        <translation>Flüsse</translation>
     </message>
     <message>
         <source>Run a tool with the expected error of the terrain, then Places to review; or choose a layer of places.</source>
@@ -1582,6 +1594,14 @@
     <message>
         <source>Share of wrong points</source>
         <translation>Anteil falscher Punkte</translation>
+    </message>
+    <message>
+        <source>Shift and tilt</source>
+        <translation>Versatz und Neigung</translation>
+    </message>
+    <message>
+        <source>Shift only</source>
+        <translation>Nur Versatz</translation>
     </message>
     <message>
         <source>Shift that would remove the mean difference [m]</source>
@@ -1700,6 +1720,10 @@
         <translation>Objekt unter Wasser</translation>
     </message>
     <message>
+        <source>Sunk</source>
+        <translation>Tiefer</translation>
+    </message>
+    <message>
         <source>Surface model</source>
         <translation>Oberflächenmodell</translation>
     </message>
@@ -1752,6 +1776,10 @@
         <translation>Tabellen</translation>
     </message>
     <message>
+        <source>Take off the horizontal shift</source>
+        <translation>Waagerechten Versatz abziehen</translation>
+    </message>
+    <message>
         <source>Take part as others do</source>
         <translation>Teilnehmen wie die übrigen</translation>
     </message>
@@ -1786,10 +1814,6 @@
     <message>
         <source>The Python of this QGIS has no pip. In Debian and Ubuntu run sudo apt-get install python3-pip, elsewhere install pip for it, and try again; or choose a wheel file.</source>
         <translation>Dem Python dieses QGIS fehlt pip. Führen Sie unter Debian und Ubuntu sudo apt-get install python3-pip aus, sonst installieren Sie pip dafür, und versuchen Sie es erneut; oder wählen Sie eine Wheel-Datei.</translation>
-    </message>
-    <message>
-        <source>The confidence is not a file. Export it as GeoTIFF first.</source>
-        <translation>Die Verlässlichkeit ist keine Datei. Exportieren Sie sie zuerst als GeoTIFF.</translation>
     </message>
     <message>
         <source>The corrections have no attribute {}. Choose the one to use.</source>
@@ -1976,12 +2000,24 @@
         <translation>Urteil</translation>
     </message>
     <message>
+        <source>Vertical shift taken off, m</source>
+        <translation>Abgezogener Höhenversatz, m</translation>
+    </message>
+    <message>
         <source>Virtual point cloud</source>
         <translation>Virtuelle Punktwolke</translation>
     </message>
     <message>
         <source>Voids of the ground</source>
         <translation>Lücken des Bodens</translation>
+    </message>
+    <message>
+        <source>Volume down, m3</source>
+        <translation>Volumen nach unten, m³</translation>
+    </message>
+    <message>
+        <source>Volume up, m3</source>
+        <translation>Volumen nach oben, m³</translation>
     </message>
     <message>
         <source>Water</source>
@@ -2072,14 +2108,6 @@
         <translation>Boden,Oberfläche,Gebäude,Bäume,Vegetation,Objekte,oto,whitebox,lindsay,top-hat</translation>
     </message>
     <message>
-        <source>below land</source>
-        <translation>unter Gelände</translation>
-    </message>
-    <message>
-        <source>below water</source>
-        <translation>unter Wasser</translation>
-    </message>
-    <message>
         <source>beside water or the border of the survey</source>
         <translation>neben Wasser oder am Rand der Befliegung</translation>
     </message>
@@ -2090,6 +2118,14 @@
     <message>
         <source>canopy</source>
         <translation>Kronenhöhe</translation>
+    </message>
+    <message>
+        <source>change</source>
+        <translation>Veränderung</translation>
+    </message>
+    <message>
+        <source>change,difference,dod,volume,erosion,landslide,detection,m3c2</source>
+        <translation>Veränderung,Differenz,DoD,Volumen,Erosion,Rutschung,Erdrutsch,Nachweis,Setzung</translation>
     </message>
     <message>
         <source>checkpoints,check points,control points,gcp,accuracy,quality,rmse,rmsez,vertical accuracy,nva,vva,asprs,validation,lascontrol,hold-out</source>
@@ -2120,10 +2156,6 @@
         <translation>Höhenlinien,Isolinien,Arbeitsablauf</translation>
     </message>
     <message>
-        <source>cut off by openings</source>
-        <translation>durch Öffnungen abgeschnitten</translation>
-    </message>
-    <message>
         <source>degrees</source>
         <translation>Grad</translation>
     </message>
@@ -2132,24 +2164,12 @@
         <translation>Lieferung,Archäologie,Forst,Hochwasser,Drohne,Halde</translation>
     </message>
     <message>
-        <source>densification</source>
-        <translation>Verdichtung</translation>
-    </message>
-    <message>
         <source>download,remote,url,web,http,clip,cloud storage,reproject,utm</source>
         <translation>herunterladen,entfernt,url,web,http,ausschneiden,cloud-speicher,umprojizieren,utm</translation>
     </message>
     <message>
         <source>dsm,dtm,canopy height model,difference,subtract,raster calculator</source>
         <translation>dom,dgm,ndom,Kronenhöhenmodell,Differenz,Rasterrechner</translation>
-    </message>
-    <message>
-        <source>finer cells off surface</source>
-        <translation>feine Zellen abseits</translation>
-    </message>
-    <message>
-        <source>gentle regions</source>
-        <translation>sanfte Bereiche</translation>
     </message>
     <message>
         <source>grid,raster,rasterize,interpolate</source>
@@ -2168,10 +2188,6 @@
         <translation>Boden,ausdünnen,Ausdünnung,Generalisierung,Schlüsselpunkte,Höhenlinien</translation>
     </message>
     <message>
-        <source>groups of low points</source>
-        <translation>Gruppen tiefer Punkte</translation>
-    </message>
-    <message>
         <source>hardly any ground under plants or on roofs</source>
         <translation>kaum Boden unter Pflanzen oder auf Dächern</translation>
     </message>
@@ -2186,10 +2202,6 @@
     <message>
         <source>key points</source>
         <translation>Schlüsselpunkte</translation>
-    </message>
-    <message>
-        <source>known ground</source>
-        <translation>bekannter Boden</translation>
     </message>
     <message>
         <source>lake,river,pond,shore,breaklines,hydro-flattening,class 9,class 20,ignored ground,usgs,lbs,classes,classification</source>
@@ -2208,24 +2220,12 @@
         <translation>lazrs ließ sich nicht speichern: {}.</translation>
     </message>
     <message>
-        <source>level with seeds beside</source>
-        <translation>auf der Höhe von Startpunkten daneben</translation>
-    </message>
-    <message>
         <source>lidar,laser scanning,als,uav,drone,las,laz,copc,ept,point cloud</source>
         <translation>Lidar,Laserscanning,Airborne Laserscanning,Drohne,las,laz,copc,ept,Punktwolke</translation>
     </message>
     <message>
-        <source>low outliers</source>
-        <translation>tiefe Ausreißer</translation>
-    </message>
-    <message>
         <source>low plants: the ground may be up to {error} too high</source>
         <translation>niedrige Pflanzen: Der Boden ist vielleicht bis zu {error} zu hoch</translation>
-    </message>
-    <message>
-        <source>lowest points, undisputed</source>
-        <translation>tiefste Punkte, unstrittig</translation>
     </message>
     <message>
         <source>lowest,minimum</source>
@@ -2240,24 +2240,8 @@
         <translation>m oder ft</translation>
     </message>
     <message>
-        <source>narrow pits</source>
-        <translation>schmale Gruben</translation>
-    </message>
-    <message>
         <source>no change</source>
         <translation>keine Änderung</translation>
-    </message>
-    <message>
-        <source>no key point</source>
-        <translation>kein Schlüsselpunkt</translation>
-    </message>
-    <message>
-        <source>none near surface</source>
-        <translation>keiner nahe Oberfläche</translation>
-    </message>
-    <message>
-        <source>on one grid only</source>
-        <translation>nur in einem Gitter</translation>
     </message>
     <message>
         <source>pip cannot work through the SOCKS proxy of QGIS's settings: choose a wheel file.</source>
@@ -2266,10 +2250,6 @@
     <message>
         <source>pip gave no reason</source>
         <translation>pip nannte keinen Grund</translation>
-    </message>
-    <message>
-        <source>pits in blocks</source>
-        <translation>Gruben in Blöcken</translation>
     </message>
     <message>
         <source>place</source>
@@ -2284,16 +2264,8 @@
         <translation>Pflanzen oder Boden: Tiefe Punkte wurden nicht als Boden genommen, bis zu {error} daneben</translation>
     </message>
     <message>
-        <source>plants or outliers</source>
-        <translation>Pflanzen oder Ausreißer</translation>
-    </message>
-    <message>
         <source>points</source>
         <translation>Punkte</translation>
-    </message>
-    <message>
-        <source>points near the surface</source>
-        <translation>Punkte nahe der Oberfläche</translation>
     </message>
     <message>
         <source>preview,try,test,preset,parameters,compare</source>
@@ -2312,10 +2284,6 @@
         <translation>qualität,qc,dichte,punktdichte,lücken,geringe verlässlichkeit,streifen,überlappung,usgs,lbs,linz,ign,spezifikation,lasoverlap,lasgrid</translation>
     </message>
     <message>
-        <source>raised objects</source>
-        <translation>erhöhte Objekte</translation>
-    </message>
-    <message>
         <source>relief</source>
         <translation>Relief</translation>
     </message>
@@ -2324,28 +2292,8 @@
         <translation>prüfen,fehler,unsicherheit,konfidenz,qualität</translation>
     </message>
     <message>
-        <source>rims of low objects</source>
-        <translation>Ränder niedriger Objekte</translation>
-    </message>
-    <message>
         <source>rough ground: a step, rocks or plants that were kept as ground</source>
         <translation>rauer Boden: eine Stufe, Felsen oder Pflanzen, die Boden geblieben sind</translation>
-    </message>
-    <message>
-        <source>seeds</source>
-        <translation>Startpunkte</translation>
-    </message>
-    <message>
-        <source>seeds of finer cells</source>
-        <translation>Startpunkte feinerer Zellen</translation>
-    </message>
-    <message>
-        <source>shrubs</source>
-        <translation>Sträucher</translation>
-    </message>
-    <message>
-        <source>single low points</source>
-        <translation>einzelne tiefe Punkte</translation>
     </message>
     <message>
         <source>sky-view factor,svf,openness,local dominance,local relief model,lrm,vat,red relief,rrim,slope,archaeology,rvt,relief visualization toolbox,visualization</source>
@@ -2356,20 +2304,8 @@
         <translation>Neigung,Hangneigung,vosselman,whitebox,top-hat</translation>
     </message>
     <message>
-        <source>smooth sides of a bank</source>
-        <translation>glatte Böschungen eines Walls</translation>
-    </message>
-    <message>
         <source>steep ground</source>
         <translation>steiler Boden</translation>
-    </message>
-    <message>
-        <source>steep rises</source>
-        <translation>steile Anstiege</translation>
-    </message>
-    <message>
-        <source>tall objects</source>
-        <translation>hohe Objekte</translation>
     </message>
     <message>
         <source>terrain</source>

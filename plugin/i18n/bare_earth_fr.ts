@@ -52,6 +52,10 @@
         <translation>Ajoute la hauteur de chaque point au-dessus des points sol d'un nuage de points.</translation>
     </message>
     <message>
+        <source>Alignment</source>
+        <translation>Alignement</translation>
+    </message>
+    <message>
         <source>All files</source>
         <translation>Tous les fichiers</translation>
     </message>
@@ -214,6 +218,14 @@
     <message>
         <source>Certain</source>
         <translation>Certain</translation>
+    </message>
+    <message>
+        <source>Change between two surveys</source>
+        <translation>Changement entre deux levés</translation>
+    </message>
+    <message>
+        <source>Change of the ground</source>
+        <translation>Changement du sol</translation>
     </message>
     <message>
         <source>Changes nothing, and is left out next time.</source>
@@ -396,14 +408,6 @@
         <translation>Les nuages de points compressés (.laz, .copc.laz) demandent le paquet Python lazrs, que peu de versions de QGIS contiennent. Vous pouvez l'obtenir ici depuis le Python Package Index (0,6 Mo) ou, sans internet, depuis un fichier wheel de lazrs pour {}. Il est enregistré dans votre profil ; QGIS lui-même ne change pas.</translation>
     </message>
     <message>
-        <source>Confidence</source>
-        <translation>Fiabilité</translation>
-    </message>
-    <message>
-        <source>Confidence of the terrain model</source>
-        <translation>Fiabilité du modèle de terrain</translation>
-    </message>
-    <message>
         <source>Context round the window</source>
         <translation>Contexte autour de la fenêtre</translation>
     </message>
@@ -432,10 +436,6 @@
         <translation>Points de contrôle comptés</translation>
     </message>
     <message>
-        <source>Deciding rules</source>
-        <translation>Règles décisives</translation>
-    </message>
-    <message>
         <source>Delivery</source>
         <translation>Livraison</translation>
     </message>
@@ -462,6 +462,10 @@
     <message>
         <source>Derived water surface</source>
         <translation>Surface de l'eau dérivée</translation>
+    </message>
+    <message>
+        <source>Detection limit</source>
+        <translation>Limite de détection</translation>
     </message>
     <message>
         <source>Difference between strips</source>
@@ -528,6 +532,14 @@
         <translation>Erreur des points de contrôle</translation>
     </message>
     <message>
+        <source>Error of the volume down, m3</source>
+        <translation>Erreur du volume en baisse, m³</translation>
+    </message>
+    <message>
+        <source>Error of the volume up, m3</source>
+        <translation>Erreur du volume en hausse, m³</translation>
+    </message>
+    <message>
         <source>Errors</source>
         <translation>Erreurs</translation>
     </message>
@@ -550,6 +562,14 @@
     <message>
         <source>Expected error (95 %)</source>
         <translation>Erreur attendue (95 %)</translation>
+    </message>
+    <message>
+        <source>Expected error of the new terrain model</source>
+        <translation>Erreur attendue du nouveau modèle de terrain</translation>
+    </message>
+    <message>
+        <source>Expected error of the old terrain model</source>
+        <translation>Erreur attendue de l'ancien modèle de terrain</translation>
     </message>
     <message>
         <source>Expected error up to {} m on {} m²</source>
@@ -596,6 +616,10 @@
         <translation>Trouver le bruit haut (18)</translation>
     </message>
     <message>
+        <source>Find the ground of point clouds</source>
+        <translation>Chercher le sol des nuages de points</translation>
+    </message>
+    <message>
         <source>Find water</source>
         <translation>Trouver l'eau</translation>
     </message>
@@ -636,6 +660,10 @@
         <translation>Trouve où un modèle de terrain peut être faux : ce qu'il faut regarder d'abord, et pourquoi.</translation>
     </message>
     <message>
+        <source>Finds where the ground changed between two surveys, how much, and how surely.</source>
+        <translation>Trouve où le sol a changé entre deux levés, de combien et avec quelle certitude.</translation>
+    </message>
+    <message>
         <source>First and single returns</source>
         <translation>Premiers retours et retours uniques</translation>
     </message>
@@ -646,10 +674,6 @@
     <message>
         <source>First returns per m²</source>
         <translation>Premiers retours par m²</translation>
-    </message>
-    <message>
-        <source>Five, for the expected error</source>
-        <translation>Cinq, pour l'erreur attendue</translation>
     </message>
     <message>
         <source>Flat land, fields</source>
@@ -818,10 +842,6 @@
     <message>
         <source>Ground tolerance on slopes</source>
         <translation>Tolérance du sol en pente</translation>
-    </message>
-    <message>
-        <source>Ground: {}</source>
-        <translation>Sol : {}</translation>
     </message>
     <message>
         <source>HTML files (*.html)</source>
@@ -1008,10 +1028,6 @@
         <translation>Surface minimale d'un toit</translation>
     </message>
     <message>
-        <source>Least confidence</source>
-        <translation>Fiabilité minimale</translation>
-    </message>
-    <message>
         <source>Least expected error</source>
         <translation>Erreur attendue minimale</translation>
     </message>
@@ -1062,10 +1078,6 @@
     <message>
         <source>Longest edge of a triangle</source>
         <translation>Plus long côté d'un triangle</translation>
-    </message>
-    <message>
-        <source>Looks at the ground</source>
-        <translation>Regards sur le sol</translation>
     </message>
     <message>
         <source>Low confidence areas</source>
@@ -1176,6 +1188,10 @@
         <translation>Ouverture négative</translation>
     </message>
     <message>
+        <source>New survey</source>
+        <translation>Nouveau levé</translation>
+    </message>
+    <message>
         <source>Next</source>
         <translation>Suivant</translation>
     </message>
@@ -1236,10 +1252,6 @@
         <translation>Pas du sol, sauf avec un préréglage classique</translation>
     </message>
     <message>
-        <source>Not ground: {}</source>
-        <translation>Non-sol : {}</translation>
-    </message>
-    <message>
         <source>Not installed yet: .laz and .copc.laz files cannot be read or written.</source>
         <translation>Pas encore installé : les fichiers .laz et .copc.laz ne peuvent être ni lus ni écrits.</translation>
     </message>
@@ -1248,8 +1260,8 @@
         <translation>Nombre de bandes</translation>
     </message>
     <message>
-        <source>One</source>
-        <translation>Un</translation>
+        <source>Old survey</source>
+        <translation>Ancien levé</translation>
     </message>
     <message>
         <source>One light</source>
@@ -1274,14 +1286,6 @@
     <message>
         <source>Overlap of strips</source>
         <translation>Recouvrement des bandes</translation>
-    </message>
-    <message>
-        <source>Overview of the classes</source>
-        <translation>Vue d'ensemble des classes</translation>
-    </message>
-    <message>
-        <source>Overview of the virtual point cloud</source>
-        <translation>Vue d'ensemble du nuage de points virtuel</translation>
     </message>
     <message>
         <source>Own choice of outputs</source>
@@ -1314,6 +1318,10 @@
     <message>
         <source>Places</source>
         <translation>Endroits</translation>
+    </message>
+    <message>
+        <source>Places of change</source>
+        <translation>Lieux de changement</translation>
     </message>
     <message>
         <source>Places to review</source>
@@ -1406,6 +1414,10 @@
     <message>
         <source>Previous</source>
         <translation>Précédent</translation>
+    </message>
+    <message>
+        <source>Probably no earth</source>
+        <translation>Probablement pas de la terre</translation>
     </message>
     <message>
         <source>Products</source>
@@ -1548,12 +1560,12 @@
         <translation>Juste tel quel (R)</translation>
     </message>
     <message>
-        <source>Rivers</source>
-        <translation>Rivières</translation>
+        <source>Risen</source>
+        <translation>Plus haut</translation>
     </message>
     <message>
-        <source>Rule that decided each cell</source>
-        <translation>Règle qui a décidé de chaque cellule</translation>
+        <source>Rivers</source>
+        <translation>Rivières</translation>
     </message>
     <message>
         <source>Run a tool with the expected error of the terrain, then Places to review; or choose a layer of places.</source>
@@ -1582,6 +1594,14 @@
     <message>
         <source>Share of wrong points</source>
         <translation>Part des points erronés</translation>
+    </message>
+    <message>
+        <source>Shift and tilt</source>
+        <translation>Décalage et inclinaison</translation>
+    </message>
+    <message>
+        <source>Shift only</source>
+        <translation>Décalage seul</translation>
     </message>
     <message>
         <source>Shift that would remove the mean difference [m]</source>
@@ -1700,6 +1720,10 @@
         <translation>Objet immergé</translation>
     </message>
     <message>
+        <source>Sunk</source>
+        <translation>Plus bas</translation>
+    </message>
+    <message>
         <source>Surface model</source>
         <translation>Modèle de surface</translation>
     </message>
@@ -1752,6 +1776,10 @@
         <translation>Tables</translation>
     </message>
     <message>
+        <source>Take off the horizontal shift</source>
+        <translation>Retirer le décalage horizontal</translation>
+    </message>
+    <message>
         <source>Take part as others do</source>
         <translation>Participer comme les autres</translation>
     </message>
@@ -1786,10 +1814,6 @@
     <message>
         <source>The Python of this QGIS has no pip. In Debian and Ubuntu run sudo apt-get install python3-pip, elsewhere install pip for it, and try again; or choose a wheel file.</source>
         <translation>Le Python de ce QGIS n'a pas pip. Sous Debian et Ubuntu, exécutez sudo apt-get install python3-pip, ailleurs installez pip pour lui, puis réessayez ; ou choisissez un fichier wheel.</translation>
-    </message>
-    <message>
-        <source>The confidence is not a file. Export it as GeoTIFF first.</source>
-        <translation>La fiabilité n'est pas un fichier. Exportez-la d'abord en GeoTIFF.</translation>
     </message>
     <message>
         <source>The corrections have no attribute {}. Choose the one to use.</source>
@@ -1976,12 +2000,24 @@
         <translation>Verdict</translation>
     </message>
     <message>
+        <source>Vertical shift taken off, m</source>
+        <translation>Décalage vertical retiré, m</translation>
+    </message>
+    <message>
         <source>Virtual point cloud</source>
         <translation>Nuage de points virtuel</translation>
     </message>
     <message>
         <source>Voids of the ground</source>
         <translation>Vides du sol</translation>
+    </message>
+    <message>
+        <source>Volume down, m3</source>
+        <translation>Volume en baisse, m³</translation>
+    </message>
+    <message>
+        <source>Volume up, m3</source>
+        <translation>Volume en hausse, m³</translation>
     </message>
     <message>
         <source>Water</source>
@@ -2072,14 +2108,6 @@
         <translation>sol nu,surface,bâtiments,arbres,végétation,sursol,objets,oto,whitebox,lindsay,top-hat</translation>
     </message>
     <message>
-        <source>below land</source>
-        <translation>sous le terrain</translation>
-    </message>
-    <message>
-        <source>below water</source>
-        <translation>sous l'eau</translation>
-    </message>
-    <message>
         <source>beside water or the border of the survey</source>
         <translation>à côté de l'eau ou au bord du levé</translation>
     </message>
@@ -2090,6 +2118,14 @@
     <message>
         <source>canopy</source>
         <translation>canopée</translation>
+    </message>
+    <message>
+        <source>change</source>
+        <translation>changement</translation>
+    </message>
+    <message>
+        <source>change,difference,dod,volume,erosion,landslide,detection,m3c2</source>
+        <translation>changement,différence,volume,érosion,glissement,détection,déblai,remblai</translation>
     </message>
     <message>
         <source>checkpoints,check points,control points,gcp,accuracy,quality,rmse,rmsez,vertical accuracy,nva,vva,asprs,validation,lascontrol,hold-out</source>
@@ -2120,10 +2156,6 @@
         <translation>courbes de niveau,chaîne de traitement</translation>
     </message>
     <message>
-        <source>cut off by openings</source>
-        <translation>coupé par des ouvertures</translation>
-    </message>
-    <message>
         <source>degrees</source>
         <translation>degrés</translation>
     </message>
@@ -2132,24 +2164,12 @@
         <translation>livrables,archéologie,forêt,inondation,drone,stock de matériaux</translation>
     </message>
     <message>
-        <source>densification</source>
-        <translation>densification</translation>
-    </message>
-    <message>
         <source>download,remote,url,web,http,clip,cloud storage,reproject,utm</source>
         <translation>télécharger,distant,url,web,http,découper,stockage cloud,reprojeter,utm</translation>
     </message>
     <message>
         <source>dsm,dtm,canopy height model,difference,subtract,raster calculator</source>
         <translation>mns,mnt,mnh,modèle de hauteur de canopée,différence,calculatrice raster</translation>
-    </message>
-    <message>
-        <source>finer cells off surface</source>
-        <translation>cellules fines à l'écart</translation>
-    </message>
-    <message>
-        <source>gentle regions</source>
-        <translation>zones douces</translation>
     </message>
     <message>
         <source>grid,raster,rasterize,interpolate</source>
@@ -2168,10 +2188,6 @@
         <translation>sol,éclaircir,généraliser,points clés,courbes de niveau</translation>
     </message>
     <message>
-        <source>groups of low points</source>
-        <translation>groupes de points bas</translation>
-    </message>
-    <message>
         <source>hardly any ground under plants or on roofs</source>
         <translation>presque pas de sol sous les plantes ou sur les toits</translation>
     </message>
@@ -2186,10 +2202,6 @@
     <message>
         <source>key points</source>
         <translation>points clés</translation>
-    </message>
-    <message>
-        <source>known ground</source>
-        <translation>sol connu</translation>
     </message>
     <message>
         <source>lake,river,pond,shore,breaklines,hydro-flattening,class 9,class 20,ignored ground,usgs,lbs,classes,classification</source>
@@ -2208,24 +2220,12 @@
         <translation>lazrs n'a pas pu être enregistré : {}.</translation>
     </message>
     <message>
-        <source>level with seeds beside</source>
-        <translation>au niveau de points de départ voisins</translation>
-    </message>
-    <message>
         <source>lidar,laser scanning,als,uav,drone,las,laz,copc,ept,point cloud</source>
         <translation>lidar,laser aéroporté,drone,las,laz,copc,ept,nuage de points</translation>
     </message>
     <message>
-        <source>low outliers</source>
-        <translation>points aberrants bas</translation>
-    </message>
-    <message>
         <source>low plants: the ground may be up to {error} too high</source>
         <translation>plantes basses : le sol est peut-être trop haut, de {error} au plus</translation>
-    </message>
-    <message>
-        <source>lowest points, undisputed</source>
-        <translation>points bas incontestés</translation>
     </message>
     <message>
         <source>lowest,minimum</source>
@@ -2240,24 +2240,8 @@
         <translation>m ou ft</translation>
     </message>
     <message>
-        <source>narrow pits</source>
-        <translation>fosses étroites</translation>
-    </message>
-    <message>
         <source>no change</source>
         <translation>aucun changement</translation>
-    </message>
-    <message>
-        <source>no key point</source>
-        <translation>aucun point clé</translation>
-    </message>
-    <message>
-        <source>none near surface</source>
-        <translation>aucun près de la surface</translation>
-    </message>
-    <message>
-        <source>on one grid only</source>
-        <translation>sur une seule grille</translation>
     </message>
     <message>
         <source>pip cannot work through the SOCKS proxy of QGIS's settings: choose a wheel file.</source>
@@ -2266,10 +2250,6 @@
     <message>
         <source>pip gave no reason</source>
         <translation>pip n'a donné aucune raison</translation>
-    </message>
-    <message>
-        <source>pits in blocks</source>
-        <translation>fosses dans des blocs</translation>
     </message>
     <message>
         <source>place</source>
@@ -2284,16 +2264,8 @@
         <translation>plantes ou sol : des points bas n'ont pas été pris pour du sol, jusqu'à {error} d'écart</translation>
     </message>
     <message>
-        <source>plants or outliers</source>
-        <translation>plantes ou points aberrants</translation>
-    </message>
-    <message>
         <source>points</source>
         <translation>points</translation>
-    </message>
-    <message>
-        <source>points near the surface</source>
-        <translation>points près de la surface</translation>
     </message>
     <message>
         <source>preview,try,test,preset,parameters,compare</source>
@@ -2312,10 +2284,6 @@
         <translation>qualité,qc,densité,lacunes,faible confiance,bandes,recouvrement,usgs,lbs,linz,ign,spécification,lasoverlap,lasgrid</translation>
     </message>
     <message>
-        <source>raised objects</source>
-        <translation>objets surélevés</translation>
-    </message>
-    <message>
         <source>relief</source>
         <translation>relief</translation>
     </message>
@@ -2324,28 +2292,8 @@
         <translation>vérifier,erreur,incertitude,confiance,qualité</translation>
     </message>
     <message>
-        <source>rims of low objects</source>
-        <translation>bords d'objets bas</translation>
-    </message>
-    <message>
         <source>rough ground: a step, rocks or plants that were kept as ground</source>
         <translation>sol accidenté : une marche, des rochers ou des plantes gardés comme sol</translation>
-    </message>
-    <message>
-        <source>seeds</source>
-        <translation>points de départ</translation>
-    </message>
-    <message>
-        <source>seeds of finer cells</source>
-        <translation>points de départ de cellules plus fines</translation>
-    </message>
-    <message>
-        <source>shrubs</source>
-        <translation>arbustes</translation>
-    </message>
-    <message>
-        <source>single low points</source>
-        <translation>points bas isolés</translation>
     </message>
     <message>
         <source>sky-view factor,svf,openness,local dominance,local relief model,lrm,vat,red relief,rrim,slope,archaeology,rvt,relief visualization toolbox,visualization</source>
@@ -2356,20 +2304,8 @@
         <translation>pente,vosselman,whitebox,top-hat</translation>
     </message>
     <message>
-        <source>smooth sides of a bank</source>
-        <translation>talus lisses d’une levée</translation>
-    </message>
-    <message>
         <source>steep ground</source>
         <translation>sol en forte pente</translation>
-    </message>
-    <message>
-        <source>steep rises</source>
-        <translation>montées raides</translation>
-    </message>
-    <message>
-        <source>tall objects</source>
-        <translation>objets hauts</translation>
     </message>
     <message>
         <source>terrain</source>
