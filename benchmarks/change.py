@@ -307,9 +307,9 @@ def _raised(
     count = int(np.count_nonzero(inside))
     if one.kind in ("roof", "lorry"):
         # All points lie on it, whatever lay below.
-        top = np.quantile(z[inside], 0.2) + (3.5 if one.kind == "lorry" else 6.0)
+        eaves = np.quantile(z[inside], 0.2) + (3.5 if one.kind == "lorry" else 4.0)
         slope = 0.0 if one.kind == "lorry" else 0.4
-        raised[inside] = top - slope * np.abs(across[inside]) - z[inside]
+        raised[inside] = eaves + slope * (width - np.abs(across[inside])) - z[inside]
         return raised
     share, high = (0.8, 12.0) if one.kind == "trees" else (0.85, 0.8)
     low = 0.5 if one.kind == "trees" else 0.3

@@ -227,6 +227,19 @@ def test_what_the_points_of_both_dates_show_is_no_change(tmp_path):
     assert heard.fractions[-1] == 1.0
 
 
+def test_plants_with_points_down_to_the_ground_are_no_change(tmp_path):
+    random = np.random.default_rng(5)
+
+    def crops(x, y):
+        inside = (np.abs(x - 60.0) < 12.0) & (np.abs(y - 50.0) < 15.0)
+        return np.where(inside, random.uniform(0.0, 1.2, x.shape), 0.0)
+
+    old, new = cloud(tmp_path / "old.las", 1), cloud(tmp_path / "new.las", 2, crops)
+    found = bare_earth.change(old, new, tmp_path / "out.tif", find_ground=False)
+    assert np.count_nonzero(cells(tmp_path / "out.tif") > 0.3) > 300
+    assert found.left_out and found.volume_up == 0.0
+
+
 def test_the_ground_of_clouds_is_found_first(tmp_path):
     old = cloud(tmp_path / "old.las", 1, classes=0)
     new = cloud(tmp_path / "new.las", 2, lambda x, y: heap(x, y, 60.0, 40.0, 8.0, 1.5), classes=0)
