@@ -533,11 +533,11 @@
     </message>
     <message>
         <source>Error of the volume down, m3</source>
-        <translation>Fehler des Volumens nach unten, m³</translation>
+        <translation>Fehler des Volumens nach unten, m3</translation>
     </message>
     <message>
         <source>Error of the volume up, m3</source>
-        <translation>Fehler des Volumens nach oben, m³</translation>
+        <translation>Fehler des Volumens nach oben, m3</translation>
     </message>
     <message>
         <source>Errors</source>
@@ -2013,11 +2013,11 @@
     </message>
     <message>
         <source>Volume down, m3</source>
-        <translation>Volumen nach unten, m³</translation>
+        <translation>Volumen nach unten, m3</translation>
     </message>
     <message>
         <source>Volume up, m3</source>
-        <translation>Volumen nach oben, m³</translation>
+        <translation>Volumen nach oben, m3</translation>
     </message>
     <message>
         <source>Water</source>

@@ -533,11 +533,11 @@
     </message>
     <message>
         <source>Error of the volume down, m3</source>
-        <translation>Erreur du volume en baisse, m³</translation>
+        <translation>Erreur du volume en baisse, m3</translation>
     </message>
     <message>
         <source>Error of the volume up, m3</source>
-        <translation>Erreur du volume en hausse, m³</translation>
+        <translation>Erreur du volume en hausse, m3</translation>
     </message>
     <message>
         <source>Errors</source>
@@ -2013,11 +2013,11 @@
     </message>
     <message>
         <source>Volume down, m3</source>
-        <translation>Volume en baisse, m³</translation>
+        <translation>Volume en baisse, m3</translation>
     </message>
     <message>
         <source>Volume up, m3</source>
-        <translation>Volume en hausse, m³</translation>
+        <translation>Volume en hausse, m3</translation>
     </message>
     <message>
         <source>Water</source>

@@ -94,7 +94,7 @@ class _Witnesses:
             taken_near(tile, boxes, self._look_at, share.quiet())
         has, there = np.zeros((2, len(self._code)), dtype=bool)
         has[self._order], there[self._order] = self._has, self._is_there
-        starts = np.cumsum([0, *(len(place.rows) for place in self._places)])[:-1]
+        starts = np.cumsum([0, *(len(place.rows) for place in self._places)], dtype=np.int64)[:-1]
         counts = (np.add.reduceat(values.astype(np.intp), starts) for values in (there, has))
         is_there, any_there = counts
         return is_there / np.maximum(any_there, 1)
