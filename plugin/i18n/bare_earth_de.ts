@@ -2125,7 +2125,7 @@
     </message>
     <message>
         <source>change,difference,dod,volume,erosion,landslide,detection,m3c2</source>
-        <translation>Veränderung,Differenz,DoD,Volumen,Erosion,Rutschung,Erdrutsch,Nachweis,Setzung</translation>
+        <translation>Veränderung,Differenz,DoD,Volumen,Erosion,Rutschung,Erdrutsch,Nachweis,M3C2</translation>
     </message>
     <message>
         <source>checkpoints,check points,control points,gcp,accuracy,quality,rmse,rmsez,vertical accuracy,nva,vva,asprs,validation,lascontrol,hold-out</source>

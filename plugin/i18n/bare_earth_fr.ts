@@ -2125,7 +2125,7 @@
     </message>
     <message>
         <source>change,difference,dod,volume,erosion,landslide,detection,m3c2</source>
-        <translation>changement,différence,volume,érosion,glissement,détection,déblai,remblai</translation>
+        <translation>changement,différence,volume,érosion,glissement,détection,déblai,M3C2</translation>
     </message>
     <message>
         <source>checkpoints,check points,control points,gcp,accuracy,quality,rmse,rmsez,vertical accuracy,nva,vva,asprs,validation,lascontrol,hold-out</source>
