@@ -160,7 +160,9 @@ def test_a_stopped_download_goes_on_where_it_was(server, tmp_path, monkeypatch):
     before = len(server.asked)
     server.fault = lambda number, path: ""
     assert len(kept) >= 4 and Fetching(tmp_path / "data", SILENT).run([entry]) == []
-    assert len(server.asked) - before == -(-len(content) // 1000) - len(kept)
+    # As ranges: a request of the stopped run may arrive late.
+    asked = {ranges for _, ranges, *_ in server.asked[before:]}
+    assert len(asked) == -(-len(content) // 1000) - len(kept)
 
 
 def test_other_points_than_measured_are_refused_and_not_replaced(server, tmp_path):
