@@ -564,12 +564,12 @@
         <translation>Erwarteter Fehler (95 %)</translation>
     </message>
     <message>
-        <source>Expected error of the new terrain model</source>
-        <translation>Erwarteter Fehler des neuen Geländemodells</translation>
+        <source>Expected error of the new DTM</source>
+        <translation>Erwarteter Fehler des neuen DGM</translation>
     </message>
     <message>
-        <source>Expected error of the old terrain model</source>
-        <translation>Erwarteter Fehler des alten Geländemodells</translation>
+        <source>Expected error of the old DTM</source>
+        <translation>Erwarteter Fehler des alten DGM</translation>
     </message>
     <message>
         <source>Expected error up to {} m on {} m²</source>

@@ -564,12 +564,12 @@
         <translation>Erreur attendue (95 %)</translation>
     </message>
     <message>
-        <source>Expected error of the new terrain model</source>
-        <translation>Erreur attendue du nouveau modèle de terrain</translation>
+        <source>Expected error of the new DTM</source>
+        <translation>Erreur attendue du nouveau MNT</translation>
     </message>
     <message>
-        <source>Expected error of the old terrain model</source>
-        <translation>Erreur attendue de l'ancien modèle de terrain</translation>
+        <source>Expected error of the old DTM</source>
+        <translation>Erreur attendue de l’ancien MNT</translation>
     </message>
     <message>
         <source>Expected error up to {} m on {} m²</source>

@@ -21,8 +21,10 @@ def dialogs(registry):
         dialog.resize(WIDTH, HEIGHT)
         dialog.show()
         QgsApplication.processEvents()
-        yield algorithm.id(), dialog
-        remove(dialog)
+        try:
+            yield algorithm.id(), dialog
+        finally:
+            remove(dialog)
 
 
 def test_all_dialogs_fit(registry):

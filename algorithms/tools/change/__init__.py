@@ -199,14 +199,14 @@ TOOL = FileTool(
             "old_error",
             "raster",
             help=_ERROR.format("old"),
-            label="Expected error of the old terrain model",
+            label="Expected error of the old DTM",
             optional=True,
         ),
         Input(
             "new_error",
             "raster",
             help=_ERROR.format("new"),
-            label="Expected error of the new terrain model",
+            label="Expected error of the new DTM",
             optional=True,
         ),
         Input(
