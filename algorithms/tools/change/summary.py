@@ -50,8 +50,8 @@ class ChangeSummary:
 
     @property
     def shift(self) -> float:
-        """The vertical shift that was taken off."""
-        return self.alignment.shift
+        """The vertical shift that was taken off, to a micrometre."""
+        return round(self.alignment.shift, 6)
 
     def figures(self, units: Units) -> list[tuple[str, str]]:
         """Return the figures of the page, with their titles."""
