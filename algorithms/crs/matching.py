@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Sequence
+
 from .provider import are_same
 from .system import Crs, same_unit, unit_name
 from .wkt import VerticalDatum
@@ -38,6 +40,16 @@ def is_other_datum(first: VerticalDatum | None, second: VerticalDatum | None) ->
     # Two vertical CRS can have one datum and different units, so their codes alone say nothing.
     has_codes = all(datum.epsg or datum.crs_epsg for datum in (first, second))
     return True if has_codes and "" not in names else None
+
+
+def other_datums(names: Sequence[object], first: Crs, second: Crs) -> str:
+    """Return a sentence if the heights of two things are not above the same datum, else nothing."""
+    if not is_other_datum(first.datum, second.datum):
+        return ""
+    return (
+        f"The heights of {names[0]} and {names[1]} are not above the same datum:"
+        f" {described(first)} and {described(second)}."
+    )
 
 
 def is_same_map(first: Crs, second: Crs) -> bool:

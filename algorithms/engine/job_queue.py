@@ -34,7 +34,7 @@ class JobQueue:
         self.done: list[TileSummary] = []  # of the files that were written
         self.empty: list[LasFile] = []  # files without points to write
         self.failures: dict[Path, str] = {}  # why the other files were not written, by input
-        self.lost: dict[Path, JobResult] = {}  # results of blocks that could not be made
+        self.lost: dict[Path, str] = {}  # why results of blocks could not be made
         self.costs: list[JobCost] = []  # of the finished jobs
         self._workers, self._progress, self._messages = workers, progress, JobMessages()
         jobs: list[AnyJob] = [*blocks, *tiles]
@@ -83,7 +83,7 @@ class JobQueue:
         elif outcome.failure is not None and len(job.output.files) > 1:
             self._split(job)
         elif outcome.failure is not None:
-            self.lost.update(dict.fromkeys(job.output.files.values(), outcome))
+            self.lost.update(dict.fromkeys(job.output.files.values(), outcome.failure))
         self._close(job)
 
     def _end_tile(self, job: TileJob, outcome: JobResult) -> None:
@@ -126,7 +126,7 @@ class JobQueue:
                 self._partial.update(job.output.files.values())
             self._next.append(job)
         elif failure is not None:
-            self._end(job, JobResult(None, failure=failure.failure))
+            self._end(job, JobResult(None, failure=failure))
         elif is_partial:  # a later run is to repeat it
             marked = replace(job, fingerprint={})
             self._whole[marked] = job

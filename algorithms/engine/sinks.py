@@ -75,8 +75,9 @@ def run_sink(
         kept = {file for job in jobs for file in job.needs}
         queue = JobQueue(jobs, [], workers, progress.part(0.0, 0.8), kept)
         queue.work()
-        for lost in queue.lost.values():
-            raise BareEarthError(f"The {step.title} cannot be made. {lost.failure}")
+        if queue.lost:
+            reason = next(iter(queue.lost.values()))
+            raise BareEarthError(f"The {step.title} cannot be made. {reason}")
         of_blocks = [result for file in files.values() for result in step.load(file)]
         with contextlib.ExitStack() as opened:
             outputs = outputs or opened.enter_context(Outputs())

@@ -11,7 +11,7 @@ import numpy as np
 
 from ..core.errors import BareEarthError
 from ..core.progress import SILENT, Progress
-from ..crs.matching import described, is_other_datum, is_same_map
+from ..crs.matching import is_same_map, other_datums
 from ..crs.system import Crs, crs_of_wkt, same_unit, unit_name
 from ..crs.wkt import read_wkt
 from .content import MemoryRaster, Source, tell_of_undeclared
@@ -89,11 +89,10 @@ class HeightRaster:
                 f" used, while heights of the points are in {unit_name(crs.vertical_unit)}."
                 f" {_STATE_IT}"
             )
-        if self.crs is not None and is_other_datum(self.crs.datum, crs.datum):
-            progress.warning(
-                f"The heights of {self.path} and of the points are not above the same datum:"
-                f" {described(self.crs)} and {described(crs)}. They are compared as they are."
-            )
+        if self.crs is not None:
+            names = self.path, "of the points"
+            if told := other_datums(names, self.crs, crs):
+                progress.warning(f"{told} They are compared as they are.")
 
     def tell_of_heights(
         self, heights: np.ndarray, unit: float, above: float, progress: Progress

@@ -12,7 +12,7 @@ import numpy as np
 from ..core.errors import BareEarthError
 from ..core.parameters import ParameterSet, parameter_of
 from ..core.progress import SILENT, Progress
-from ..crs.matching import described, is_other_datum
+from ..crs.matching import other_datums
 from ..grids.canopy import PIT_PASSES, canopy_height, without_pits
 from ..rasters.content import NO_CELLS, Source
 from ..rasters.geotiff import NODATA, HeightBand, read_raster
@@ -169,12 +169,8 @@ def _refuse_other_crs(
     if not (surface.frame.wkt and terrain.frame.wkt):
         return
     HeightRaster.of(name).check(surface.crs, str(surface.source))
-    if is_other_datum(surface.crs.datum, terrain.crs.datum):
-        progress.warning(
-            f"The heights of {surface.source} and {name} are not above the same datum:"
-            f" {described(surface.crs)} and {described(terrain.crs)}. They are compared as they"
-            " are."
-        )
+    if told := other_datums((surface.source, name), surface.crs, terrain.crs):
+        progress.warning(f"{told} They are compared as they are.")
 
 
 _raster = partial(Input, kind="raster")

@@ -17,7 +17,6 @@ from ...rasters.content import Source
 from ...rasters.geotiff import NODATA
 from ...rasters.sparse import RasterPart
 from ...rasters.writing import RasterCells, write_geotiff
-from ...report.units import Units
 from ...survey.area import Polygon
 from ...survey.feature_files import Feature, FeatureLayer, feature_writer
 from ..contours import corners_of
@@ -26,7 +25,7 @@ from ..ground.method import TileMethod
 from ..rasters.parameters import TerrainModel
 from .judged import SAME, judged
 from .page import change_html
-from .pair import Given, Pair, Strip, pair_of
+from .pair import Pair, Strip, given, pair_of
 from .places import Places, limits_of, places_of
 from .stable import aligned, sample_of, scatter_of
 from .summary import ChangeSummary, Found, summary_of
@@ -35,6 +34,7 @@ _FIELDS = {
     "RANK": int, "KIND": str, "AREA": float, "VOLUME": float, "VOLUME_ERR": float, "MEAN": float,
     "LARGEST": float, "LIMIT": float,
 }  # fmt: skip
+_DIGITS = 1, 2, 2, 3, 3, 3  # of the numbers in the layer, from the area on
 
 
 @dataclass(frozen=True)
@@ -93,7 +93,8 @@ def change(
     """Write how the ground changed from an old to a new survey: the difference, what of it can be
     told from errors, the places, and a page.
     """
-    dates = Given(old, old_error, crs), Given(new, new_error, crs)
+    opening = progress.part(0.0, 0.0)
+    dates = given(old, old_error, crs, opening), given(new, new_error, crs, opening)
     names = str(old), str(new)
     outputs = [path.parent for path in (difference, limit, places, page) if path is not None]
     beside = next((folder for folder in outputs if folder.is_dir()), Path(tempfile.gettempdir()))
@@ -113,9 +114,7 @@ def change(
             layer = FeatureLayer("change", "Polygon", _FIELDS, grid.frame.wkt, grid.crs.epsg)
             feature_writer(places)(places, features_of(found), layer, progress)
         if page is not None:
-            frame = found.pair.grid.frame
-            facts = summary.figures(Units(frame.horizontal_unit, frame.vertical_unit))
-            html = change_html(names, found, facts, clouds)
+            html = change_html(names, found, summary.figures(found.pair.units), clouds)
             page.write_text(html, encoding="utf-8")
     progress(1.0)
     return summary
@@ -172,19 +171,10 @@ def _write_rasters(
 
 def features_of(found: Found) -> Iterator[Feature]:
     """Yield the places as polygons."""
-    grid = found.pair.grid
-    up, across = grid.frame.vertical_unit, grid.frame.horizontal_unit
-    area, volume = across**2, across**2 * up
     for rank, place in enumerate(found.places, start=1):
-        rings: Polygon = tuple(corners_of(ring, grid) for ring in place.rings)
-        yield Feature(
-            (
-                rank, place.kind, round(place.area / area, 1), round(place.volume / volume, 2),
-                round(place.volume_error / volume, 2), round(place.mean / up, 3),
-                round(place.largest / up, 3), round(float(np.mean(place.limit)) / up, 3),
-            ),
-            rings,
-        )  # fmt: skip
+        rings: Polygon = tuple(corners_of(ring, found.pair.grid) for ring in place.rings)
+        figures = map(round, place.in_units(found.pair.units), _DIGITS)
+        yield Feature((rank, place.kind, *figures), rings)
 
 
 _DATE = "a terrain model (a raster of heights), or a point cloud (a file, a folder or a .vpc)."

@@ -49,8 +49,7 @@ def change_html(
     clouds: Sequence[Inputs | None],
 ) -> str:
     """Return the page, given the names and the point clouds of both dates, and the figures."""
-    grid = found.pair.grid
-    units = Units(grid.frame.horizontal_unit, grid.frame.vertical_unit)
+    units = found.pair.units
     parts = [
         lines(f"Old: {names[0]}", f"New: {names[1]}", kind="files"),
         table(facts, is_named=True),
@@ -105,16 +104,11 @@ def _scale(found: Found) -> float:
 
 def _table(found: Found, units: Units) -> Html:
     """Return the table of the first places."""
-    up, area, volume = units.vertical, units.horizontal**2, units.horizontal**2 * units.vertical
-    rows = [
-        (
-            rank, place.kind, f"{place.area / area:,.0f}",
-            f"{place.volume / volume:+,.1f} ± {place.volume_error / volume:,.1f}",
-            f"{place.mean / up:+.2f}", f"{place.largest / up:+.2f}",
-            f"{float(np.mean(place.limit)) / up:.2f}",
-        )
-        for rank, place in enumerate(found.places[:_SHOWN], start=1)
-    ]  # fmt: skip
+    rows = []
+    for rank, place in enumerate(found.places[:_SHOWN], start=1):
+        area, volume, error, mean, largest, limit = place.in_units(units)
+        change = f"{mean:+.2f}", f"{largest:+.2f}", f"{limit:.2f}"
+        rows.append((rank, place.kind, f"{area:,.0f}", f"{volume:+,.1f} ± {error:,.1f}", *change))
     high = units.up
     head = (
         "", "What it probably is", f"Area, {units.across}²", f"Volume (95 %), {units.cubic}",
@@ -185,10 +179,6 @@ def _profile(
     known = np.isfinite(heights)
     dots.append(Dots(fine[known], heights[known], _NEW))
     first = ChartLine(along, old / up, (old - limit) / up, (old + limit) / up, (_OLD, _BAND))
-    known = [
-        Dots(d.along[np.isfinite(d.heights)], d.heights[np.isfinite(d.heights)], d.colour)
-        for d in dots
-    ]
     names = ("west", "east") if line[0][0] == line[1][0] else ("north", "south")
     chart = profile_chart(
         f"Profile of place {number}, from {names[0]} to {names[1]}", first, dots,

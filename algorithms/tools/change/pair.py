@@ -13,7 +13,7 @@ from ...classes.selection import Selection
 from ...core.errors import BareEarthError
 from ...core.points import Box, box_in_words
 from ...core.progress import SILENT, Progress
-from ...crs.matching import described, is_other_datum, is_same_map
+from ...crs.matching import described, is_same_map, other_datums
 from ...crs.system import Crs
 from ...engine.memory import Resources
 from ...engine.run import Run
@@ -24,6 +24,7 @@ from ...rasters.content import NO_CELLS, MemoryRaster, Source
 from ...rasters.geotiff import HeightBand, read_raster
 from ...rasters.sampling import HeightRaster, HeightSampler
 from ...rasters.windows import RasterWindows, Window, Windows
+from ...report.units import Units
 from ...survey.files import Inputs, is_cloud
 from ...survey.vpc import SUFFIX
 from ..canopy import is_same_grid
@@ -79,6 +80,11 @@ class Pair(NamedTuple):
         """The side of a cell in metres."""
         return self.grid.cell_metres[0]
 
+    @property
+    def units(self) -> Units:
+        """The units of lengths and heights in outputs."""
+        return Units(self.grid.frame.horizontal_unit, self.grid.frame.vertical_unit)
+
     def strips(self, progress: Progress) -> Iterator[Strip]:
         """Yield all rows, strip by strip."""
         rows, columns = self.grid.whole
@@ -116,16 +122,25 @@ class Given(NamedTuple):
 
     terrain: Source
     error: Source | None = None
-    crs: str | None = None  # of the points, if the user states it
+    cloud: Inputs | None = None  # the opened points that the terrain has to be made of
 
     @property
-    def cloud(self) -> Inputs | None:
-        """The points of which the terrain has to be made; None for a raster."""
-        if isinstance(self.terrain, MemoryRaster):
-            return None
-        path = Path(self.terrain)
-        is_one = path.is_dir() or is_cloud(path) or path.suffix.lower() in (SUFFIX, ".txt")
-        return Inputs(path).read_as(self.crs) if is_one else None
+    def crs(self) -> Crs:
+        """The CRS that it states."""
+        if self.cloud is not None:
+            return self.cloud.open().crs
+        return read_raster(self.terrain, window=NO_CELLS).crs
+
+
+def given(terrain: Source, error: Source | None, crs: str | None, progress: Progress) -> Given:
+    """Return what is given of one date; points are opened, with the CRS that the user states."""
+    if isinstance(terrain, MemoryRaster):
+        return Given(terrain, error)
+    path = Path(terrain)
+    if not (path.is_dir() or is_cloud(path) or path.suffix.lower() in (SUFFIX, ".txt")):
+        return Given(terrain, error)
+    cloud = Inputs(path).read_as(crs)
+    return Given(terrain, error, cloud.holding(cloud.open(progress)))
 
 
 class _Sampled:
@@ -178,29 +193,20 @@ def pair_of(
     """Return both terrains on one grid: that of `like`, of a raster that is given, or of both
     clouds, whose rasters are made in a folder; refuse what cannot be compared.
     """
-    clouds = [date.cloud for date in dates]
-    target = RasterTarget(like=like) if like is not None else None
-    rasters = [date.terrain for date, cloud in zip(dates, clouds) if cloud is None]
-    if target is None and rasters:
-        target = RasterTarget(like=rasters[0])
-    _refuse_other_clouds(clouds, dates)
-    if target is None:
-        boxes = [cloud.open().box for cloud in clouds if cloud is not None]
+    names = [str(date.terrain) for date in dates]
+    # Before the long work begins.
+    _refuse_other_crs((dates[0].crs, dates[1].crs), names)
+    rasters = [date.terrain for date in dates if date.cloud is None]
+    if like is not None or rasters:
+        target = RasterTarget(like=like if like is not None else rasters[0])
+    else:
+        boxes = [date.cloud.open().box for date in dates if date.cloud is not None]
         target = RasterTarget(extent=_common(*boxes))
     made = [
-        date if cloud is None else _made(cloud, target, folder / name, how, part)
-        for date, cloud, name, part in zip(dates, clouds, ("old", "new"), progress.shares(1, 1))
+        date if date.cloud is None else _made(date.cloud, target, folder / name, how, part)
+        for date, name, part in zip(dates, ("old", "new"), progress.shares(1, 1))
     ]
-    return _on_one_grid((made[0], made[1]), like, [str(date.terrain) for date in dates], progress)
-
-
-def _refuse_other_clouds(clouds: list[Inputs | None], dates: tuple[Given, Given]) -> None:
-    """Refuse dates that cannot be compared, before the long work begins."""
-    systems = [
-        read_raster(date.terrain, window=NO_CELLS).crs if cloud is None else cloud.open().crs
-        for date, cloud in zip(dates, clouds)
-    ]
-    _refuse_other_crs((systems[0], systems[1]), [str(date.terrain) for date in dates])
+    return _on_one_grid((made[0], made[1]), like, names, progress)
 
 
 def _common(one: Box, other: Box) -> Box:
@@ -246,7 +252,6 @@ def _on_one_grid(
         read_raster(date.terrain, 1, progress if str(date.terrain) == name else SILENT, NO_CELLS)
         for date, name in zip(dates, names)
     ]
-    _refuse_other_crs((rasters[0].crs, rasters[1].crs), names)
     grid = rasters[0] if like is None else read_raster(like, window=NO_CELLS)
     _refuse_other_crs((rasters[0].crs, grid.crs), [names[0], str(like)], heights=False)
     width, height = grid.cell_metres
@@ -286,11 +291,9 @@ def _refuse_other_crs(systems: tuple[Crs, Crs], names: list[str], heights: bool 
             f"{names[1]} is in another CRS ({described(new)}) than {names[0]} ({described(old)})."
             " Reproject one of them."
         )
-    if heights and is_other_datum(old.datum, new.datum):
+    if heights and (told := other_datums(names, old, new)):
         raise BareEarthError(
-            f"The heights of {names[0]} and {names[1]} are not above the same datum:"
-            f" {described(old)} and {described(new)}. Transform one of them first, such as with"
-            " gdalwarp and a geoid model."
+            f"{told} Transform one of them first, such as with gdalwarp and a geoid model."
         )
 
 

@@ -10,6 +10,7 @@ import numpy as np
 from ...core.parameters import ParameterSet, parameter
 from ...core.progress import Progress
 from ...grids.isolines import rings_of
+from ...report.units import Units
 from .pair import Pair
 from .stable import LIMIT, Alignment, Scatter
 
@@ -69,6 +70,16 @@ class ChangePlace(NamedTuple):
     def largest(self) -> float:
         """The largest change in metres."""
         return float(self.change[np.argmax(np.abs(self.change))])
+
+    def in_units(self, units: Units) -> tuple[float, float, float, float, float, float]:
+        """Return area, volume and its error, mean and largest change and mean limit in the units of
+        a survey.
+        """
+        area, up = units.horizontal**2, units.vertical
+        return (
+            self.area / area, self.volume / (area * up), self.volume_error / (area * up),
+            self.mean / up, self.largest / up, float(np.mean(self.limit)) / up,
+        )  # fmt: skip
 
     @property
     def window(self) -> tuple[slice, slice]:
