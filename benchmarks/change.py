@@ -40,7 +40,11 @@ _STEEPEST = 0.4  # height of a heap or a landslide in relation to half of its wi
 _AREA = 8.0  # square metres over the limit from which a place should be found
 _SHARE = 0.5  # of a change that must be over the limit
 _ROOM = 3.0  # metres between changes
-_PARTS = ("stable", "terrains", "changes", "objects")
+_PARTS = ("stable", "rasters", "terrains", "changes", "objects")
+_TITLES = {
+    "stable": "Halves of points, nothing changed",
+    "rasters": "Terrain models of these halves, without their expected errors",
+}
 _MOST = 8  # changes of a tile
 
 Shape = Callable[[np.ndarray, np.ndarray], np.ndarray]
@@ -108,9 +112,29 @@ def run(old: laspy.LasData, new: laspy.LasData, folder: Path, **more: object) ->
     )  # fmt: skip
 
 
-def stable(name: str, folder: Path) -> dict[str, object]:
-    """Return what is called change between both halves of a tile, in percent."""
-    found = run(*halves(name), folder)
+def terrains(halved: tuple[laspy.LasData, laspy.LasData], folder: Path) -> list[tuple[Path, Path]]:
+    """Return the terrain models of both halves of a tile, and their expected errors."""
+    files = []
+    for number, half in enumerate(halved):
+        half.write(folder / "half.las")
+        made = {key: folder / f"{key}{number}.tif" for key in ("dtm", "expected_error")}
+        bare_earth.classify(folder / "half.las", folder / "half.laz", **made)
+        files.append((made["dtm"], made["expected_error"]))
+    return files
+
+
+def stable(name: str, folder: Path, of_points: bool = True) -> dict[str, object]:
+    """Return what is called change between both halves of a tile, in percent: of their points, or
+    of their terrain models without expected errors.
+    """
+    if of_points:
+        found = run(*halves(name), folder)
+    else:
+        (old, _), (new, _) = terrains(halves(name), folder)
+        found = bare_earth.change(
+            old, new, folder / "difference.tif", limit=folder / "limit.tif",
+            places=folder / "places.geojson",
+        )  # fmt: skip
     area = found.cell_count * _cell(folder) ** 2
     places = _places(folder)
     share = 100.0 * sum(one["AREA"] for one in places) / area
@@ -198,13 +222,8 @@ def in_terrains(name: str, folder: Path, seeds: Sequence[int]) -> Iterator[Case]
     """
     import rasterio
 
-    halved, files = halves(name), list[dict[str, Path]]()
-    for number, half in enumerate(halved):
-        half.write(folder / "half.las")
-        made = {key: folder / f"{key}{number}.tif" for key in ("dtm", "expected_error")}
-        bare_earth.classify(folder / "half.las", folder / "half.laz", **made)
-        files.append(made)
-    (old, old_error), (new, new_error) = (tuple(made.values()) for made in files)
+    halved = halves(name)
+    (old, old_error), (new, new_error) = terrains(halved, folder)
     with rasterio.open(new) as raster:
         heights, profile = raster.read(1, masked=True), raster.profile
         column, row = np.meshgrid(np.arange(raster.width) + 0.5, np.arange(raster.height) + 0.5)
@@ -321,11 +340,14 @@ def report(seeds: int, tiles: tuple[str, ...], parts: set[str]) -> Iterator[str]
     """Yield the lines of the tables."""
     with tempfile.TemporaryDirectory() as place:
         folder = Path(place)
-        if "stable" in parts:
+        for part in ("stable", "rasters"):
+            if part not in parts:
+                continue
+            yield f"\n{_TITLES[part]}:\n"
             yield "| Tile | called change, % | earth, % | places | left out | NMAD, m | limit, m |"
             yield "|---|--:|--:|--:|--:|--:|--:|"
             for name in tiles:
-                found = stable(name, folder)
+                found = stable(name, folder, part == "stable")
                 yield (
                     f"| {name} | {found['share']:.2f} | {found['earth']:.2f} | {found['places']} |"
                     f" {found['left out']} | {found['nmad']:.3f} | {found['limit']:.2f} |"

@@ -102,6 +102,15 @@ def test_a_heap_and_a_bank_have_their_volumes_under_shift_and_tilt(tmp_path, wit
     assert cells(tmp_path / "limit.tif").shape == (SIDE, SIDE)
 
 
+@pytest.mark.parametrize("given", [(), ("old_error",), ("old_error", "new_error")])
+def test_limits_that_follow_from_stable_land_alone_are_doubted(tmp_path, given):
+    files, errors = pair(tmp_path, 0.0)
+    progress = Heard()
+    bare_earth.change(*files, **{name: errors[name] for name in given}, progress=progress)
+    assert len(progress.warnings) == (len(given) < 2)
+    assert all("too small in gaps" in text for text in progress.warnings)
+
+
 def test_a_change_below_the_limit_is_not_told(tmp_path):
     files, errors = pair(tmp_path, heap(*places(), height=0.3), error=0.8)
     found = bare_earth.change(*files, **errors)

@@ -264,13 +264,14 @@ def _on_one_grid(
             of_error = read_raster(date.error, window=NO_CELLS)
             _refuse_other_crs((raster.crs, of_error.crs), [names[0], str(date.error)], False)
             errors.append(_windows(date.error, of_error, grid))
-    if len(errors) == 1:
-        progress.warning(
-            "Only one date has an expected error: limits follow from stable land alone. Give the"
-            " expected errors of both."
-        )
-        errors = []
-    return Pair(grid, old, new, (errors[0], errors[1]) if errors else None)
+    if len(errors) == 2:
+        return Pair(grid, old, new, (errors[0], errors[1]))
+    missing = "Only one date has an expected error" if errors else "There are no expected errors"
+    progress.warning(
+        f"{missing}: limits follow from stable land alone, and are too small in gaps and under"
+        " plants. Give the expected errors of both."
+    )
+    return Pair(grid, old, new, None)
 
 
 def _windows(source: Source, raster: HeightBand, grid: HeightBand) -> Windows:
