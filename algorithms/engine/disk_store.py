@@ -38,6 +38,9 @@ _MOST_READ = 1 << 15
 _STEP = 1 << 24
 # Bytes of the header of an entry of a zip file, without its name and extra bytes.
 _ZIP_HEADER = 30
+# Python 3.11 and older raise a SystemError when two threads parse at once (CPython issue 106905),
+# and NumPy parses the header of an array.
+_one_parser = threading.Lock()
 
 
 class DiskStore(Store):
@@ -212,8 +215,9 @@ def rows_in(file: Path) -> dict[str, RowsOnDisk]:
             # The entries are not compressed. Their headers end with a name and extra bytes.
             content.seek(entry.header_offset + _ZIP_HEADER - 4)
             content.seek(sum(struct.unpack("<HH", content.read(4))), os.SEEK_CUR)
-            np.lib.format.read_magic(content)
-            shape, _, kind = np.lib.format.read_array_header_1_0(content)
+            with _one_parser:
+                np.lib.format.read_magic(content)
+                shape, _, kind = np.lib.format.read_array_header_1_0(content)
             name = entry.filename[: -len(".npy")]
             found[name] = RowsOnDisk(file, content.tell(), shape, kind)
     return found

@@ -85,7 +85,7 @@ class BlockFiles:
         """Write the values of a block: for each input, those of its points in file order."""
         content: dict[str, Any] = {_key(path): values for path, values in of_files.items()}
         if failure:
-            content[_FAILURE] = np.array(failure)
+            content[_FAILURE] = np.frombuffer(failure.encode(), dtype=np.uint8)
         with replacing(self.files[place]) as temporary:
             np.savez(temporary, **content)
 
@@ -106,10 +106,11 @@ class BlockValues(PointValues):
             if not are_all and not file.exists():
                 self._not_done.append(code(place))
                 continue
-            with np.load(file, allow_pickle=False) as content:
-                if _key(las.path) in content:
-                    self._values[code(place)] = rows_in(file)[_key(las.path)]
-                    self.failure = self.failure or str(content.get(_FAILURE, ""))
+            content = rows_in(file)
+            if _key(las.path) in content:
+                self._values[code(place)] = content[_key(las.path)]
+                if _FAILURE in content:
+                    self.failure = self.failure or content[_FAILURE][:].tobytes().decode()
 
     def of(self, where: slice, part: PointCloud) -> np.ndarray:
         """Return the values of the next part; refuse points outside the extent in the header."""

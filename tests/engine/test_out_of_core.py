@@ -1,8 +1,11 @@
+import gc
 import os
 import shutil
 import signal
 import subprocess
 import sys
+import time
+from concurrent.futures import ThreadPoolExecutor
 from types import SimpleNamespace
 
 import laspy
@@ -292,3 +295,25 @@ def test_a_block_without_cells_is_read_from_disk(tmp_path):
     rows = disk_store.rows_in(tmp_path / "block.npz")
     assert rows["none"][:, :].shape == (3, 0)
     assert rows["some"][1:3, :].tolist() == [[2, 3], [4, 5]]
+
+
+def test_threads_read_the_arrays_of_blocks_at_once(tmp_path):
+    # Threads that hand over while they parse, as they may when garbage is collected.
+    np.savez(tmp_path / "block.npz", **{str(number): np.zeros(5) for number in range(30)})
+
+    def hand_over(*_):
+        time.sleep(0)
+
+    before, switching = gc.get_threshold(), sys.getswitchinterval()
+    gc.callbacks.append(hand_over)
+    gc.set_threshold(20)
+    sys.setswitchinterval(1e-6)
+    try:
+        with ThreadPoolExecutor(8) as pool:
+            paths = [tmp_path / "block.npz"] * 300
+            found = list(pool.map(lambda path: len(disk_store.rows_in(path)), paths))
+    finally:
+        gc.callbacks.remove(hand_over)
+        gc.set_threshold(*before)
+        sys.setswitchinterval(switching)
+    assert found == [30] * 300
