@@ -17,6 +17,7 @@ from typing import Sequence
 
 from bare_earth.algorithms.tools.assess import AssessmentOptions, assess_files
 
+from .change import write_change
 from .jobs import JOBS, write_job
 from .land import LANDS, write_unclassified
 from .picture import Truth, draw
@@ -36,10 +37,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--truth", type=Path, help="the same points with their true classes")
     parser.add_argument("--land", choices=list(LANDS), help="a tile of real land")
     parser.add_argument("--qgis", action="store_true", help="by qgis_process of an installed QGIS")
-    parser.add_argument("--job", choices=list(JOBS), help="only write the data of a tutorial")
+    jobs = [*JOBS, "change"]
+    parser.add_argument("--job", choices=jobs, help="only write the data of a tutorial")
     options = parser.parse_args(arguments)
-    if options.job is not None:
+    if options.job == "change":
+        print("Put into new.laz:", *write_change(_OUTPUT / "change"), sep="\n")
+    elif options.job is not None:
         write_job(options.job, _OUTPUT / options.job)
+    if options.job is not None:
         print(f"Wrote the data of the tutorial to {_OUTPUT / options.job}")
         return 0
     if options.truth is not None and options.cloud is None:

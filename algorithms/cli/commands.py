@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 # What values are called in the help, where not FILE.
 _METAVARS = {
-    "source": "INPUT", "folder": "FOLDER", "cache": "FOLDER", "limit": "GB", "like": "RASTER",
+    "source": "INPUT", "folder": "FOLDER", "cache": "FOLDER", "like": "RASTER",
     "scheduler": "ADDRESS",
     "crs": "CRS", "checkpoints_crs": "CRS",
     "columns": "x=E,y=N,z=H,cover=Class,type=Use,name=ID",
@@ -82,8 +82,8 @@ def _add_argument(parser: argparse.ArgumentParser, argument: Argument) -> None:
     is_needed, metavar = argument.default is REQUIRED, _METAVARS.get(name, "FILE")
     if argument.kind == KINDS["clouds"]:
         parser.add_argument(name, metavar="INPUT", nargs="+", help=text)
-    elif argument.kind == KINDS["number"]:
-        parser.add_argument(_option(name), type=float, metavar=metavar, help=text)
+    elif argument.kind == KINDS["number"]:  # that of remote inputs; `change` has a raster `limit`
+        parser.add_argument(_option(name), type=float, metavar="GB", help=text)
     elif is_needed and argument.kind in map(KINDS.get, _NEEDED):
         parser.add_argument(name, metavar=_METAVARS.get(name, name.upper()), help=text)
     elif argument.kind == KINDS["extent"]:

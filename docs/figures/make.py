@@ -27,6 +27,7 @@ sys.path.insert(0, str(Path(__file__).parents[2]))
 
 from above_ground_figure import above_ground
 from by_hand_figure import by_hand
+from change_figure import change_tutorial
 from drawing import FEW_COLOURS, IMAGES, OTHER, draw_errors, save, shade, shrink
 from expected_error_figure import expected_and_found
 from method_figures import grid_minimum_steps, slope_filter_steps, tin_densification_steps
@@ -87,6 +88,7 @@ def main() -> None:
         "grid-minimum-steps": grid_minimum_steps,
         "above-ground": above_ground,
         "by-hand": by_hand,
+        "change": change_tutorial,
         "expected-error": expected_and_found,
         "noise": noise,
         "relief-smoothing": relief_smoothing,

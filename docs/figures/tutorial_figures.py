@@ -17,7 +17,7 @@ from matplotlib.axes import Axes
 
 from demo.pages import commands_of, steps
 
-_PAGES = Path(__file__).parents[1] / "tutorials"
+_PAGE = Path(__file__).parents[1] / "jobs.md"
 _CLASSES = {
     1: (OTHER, "1 unclassified"), 2: (GROUND, "2 ground"), 3: ("#b5d46a", "3 low plants"),
     4: ("#6fae4f", "4 medium plants"), 5: ("#2f7d43", "5 high plants"), 6: (LINE, "6 building"),
@@ -79,7 +79,8 @@ def tutorial_figures(job: str) -> None:
 
 
 def _run(job: str, folder: Path) -> Tutorial:
-    page = (_PAGES / f"{job}.md").read_text(encoding="utf-8")
+    sections = _PAGE.read_text(encoding="utf-8").split("\n## ")
+    page = next(section for section in sections if f"make demo JOB={job}\n" in section)
     kept: list[Path] = []
     for block, _ in steps(page, folder):
         if block.kind == "sh" and any("deliver" in words for words in commands_of(block)):

@@ -135,6 +135,27 @@ def test_the_first_steps_print_what_their_page_says(pages, tmp_path):
     assert wrong == [] and quotes == 2
 
 
+@pytest.mark.rest
+def test_the_tutorial_on_change_says_what_is_found(pages, tmp_path):
+    page = (ROOT / "docs" / "change-tutorial.md").read_text(encoding="utf-8")
+    wrong, quotes = [], 0
+    for block, printed in pages.steps(page, tmp_path):
+        if block.kind != "sh":
+            text = shown(Path.cwd()) if block.kind == "text" else printed
+            wrong += [line for line in block.text.splitlines() if not is_in(line, text)]
+            quotes += 1
+    assert wrong == [] and quotes == 3
+    # The table repeats the volumes of both lists.
+    put, *_, found = (block.text for block in pages.blocks_of(page) if block.kind != "sh")
+    for name in ("Cut bank", "Heap", "Pit"):
+        (true, volume, error) = re.search(
+            rf"^\| {name} \| (\S+) m³ \| (\S+) ± (\S+) m³, earth \|$", page, re.M
+        ).groups()
+        assert re.search(rf"^{name}\s+{re.escape(true)} m3$", put, re.M | re.I)
+        assert f"{volume} ± {error}" in found
+        assert abs(float(true) - float(volume)) < float(error)
+
+
 def test_the_tutorials_are_those_of_all_deliveries():
     from bare_earth.algorithms.delivery.deliveries import DELIVERIES
 

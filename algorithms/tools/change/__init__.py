@@ -256,6 +256,7 @@ TOOL = FileTool(
     " points of both dates alike is no change, whatever the ground filter made of it.",
     page="change",
     words=(CLOUD, TERRAIN, RASTER, "change,difference,dod,volume,erosion,landslide,detection,m3c2"),
+    always_tells=True,
     run_name="change",
     shown=(),
     numbers=(
