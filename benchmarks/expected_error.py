@@ -17,7 +17,6 @@ from typing import Callable, Iterator, NamedTuple, Sequence
 import numpy as np
 from scipy.optimize import minimize
 from scipy.special import expit
-from scipy.stats import rankdata
 
 from bare_earth.algorithms.classes.point_counts import PointCounts
 from bare_earth.algorithms.classes.selection import Selection
@@ -383,6 +382,9 @@ def auc(values: np.ndarray, which: np.ndarray) -> float:
     some, others = np.count_nonzero(which), np.count_nonzero(~which)
     if not some or not others:
         return np.nan
+    # Takes half a second to import, which each process of the tests would do.
+    from scipy.stats import rankdata
+
     return float((rankdata(values)[which].sum() - some * (some + 1) / 2.0) / (some * others))
 
 

@@ -40,7 +40,8 @@ SLOWEST = (
 )  # fmt: skip
 READ_THE_CODE = (
     "project/test_docstrings.py", "cli/test_security.py", "project/test_walls.py",
-    "engine/test_windows.py",
+    "engine/test_windows.py", "project/test_quotes.py", "project/test_pages.py",
+    "project/test_daily.py",
 )  # fmt: skip
 
 
@@ -69,6 +70,11 @@ def pytest_collection_finish():
     """Keep what all tests share from being looked through for garbage, and look less often."""
     gc.freeze()
     gc.set_threshold(20_000)
+
+
+def pytest_sessionfinish():
+    """Let a process end at once: what is left is not looked through for garbage six times."""
+    gc.freeze()
 
 
 @pytest.fixture(autouse=True, scope="module")

@@ -96,8 +96,8 @@ def test_every_command_that_reads_points_takes_a_crs(feet, tmp_path):
         ("height", feet, tmp_path / "heights.laz"),
         ("key-points", feet, tmp_path / "keys.laz"),
         ("assess", feet, feet, "--error-map", tmp_path / "errors.tif"),
-        ("compare-settings", feet, tmp_path / "page.html", "--settings", "slope:automatic",
-         "slope:town", "--extent", 6653100, 1923100, 6653300, 1923300),
+        ("compare-settings", feet, tmp_path / "page.html", "--settings", "slope:whitebox",
+         "grid-minimum:paper", "--extent", 6653100, 1923100, 6653300, 1923300),
     ):  # fmt: skip
         code, _, errors = said(*words, *given)
         assert code == 0 and "taken as metres" not in errors, (words, errors)

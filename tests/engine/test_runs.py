@@ -109,8 +109,8 @@ def test_key_points_of_many_files_are_as_good_as_those_of_one(survey, tmp_path):
 
 
 def test_the_public_functions_take_one_file_and_many(survey, tmp_path):
-    one = bare_earth.classify(str(survey), tmp_path / "one-out.laz", method="slope")
-    many = bare_earth.classify(tmp_path / "in", tmp_path / "many", method="slope")
+    one = bare_earth.classify(str(survey), tmp_path / "one-out.laz", **FAST)
+    many = bare_earth.classify(tmp_path / "in", tmp_path / "many", **FAST)
     assert one.ground_count == many.ground_count > 5000
     heights = bare_earth.heights(tmp_path / "one-out.laz", tmp_path / "heights.laz")
     assert heights.maximum > 5.0 and heights.unit == "metre"
@@ -119,7 +119,7 @@ def test_the_public_functions_take_one_file_and_many(survey, tmp_path):
     assert size.ground_count == one.ground_count and files["dsm"].stat().st_size
     assert shares and shares == sorted(shares) and shares[-1] == 1.0
     assert json.dumps(many.failures) == "{}"
-    again = bare_earth.classify(tmp_path / "in", tmp_path / "many", method="slope", resume=True)
+    again = bare_earth.classify(tmp_path / "in", tmp_path / "many", **FAST, resume=True)
     assert again.kept_count == many.done_count
 
 

@@ -25,9 +25,14 @@ GO = (
     "hemisphere-40-slope0-8pm2-a", "arch-80x40x16x0x1-slope2-4pm2-b",
     "cushions-4x1.8x8-slope0-20pm2-a", "cushions-3x1.2x10-slope5-12pm2-b",
 )  # fmt: skip
+# Others of their kind are tried daily.
+REST = (
+    "cushions-4x1.8x8-slope0-20pm2-a", "channels-40x6x3-slope0-2pm2-b",
+    "stacks-10x8x1.2x4x2-slope0-8pm2-a",
+)  # fmt: skip
 
 
-@pytest.mark.parametrize("method, name", covering(tuple(METHODS), STAY + GO))
+@pytest.mark.parametrize("method, name", covering(tuple(METHODS), STAY + GO, rest=REST))
 def test_land_stays_and_what_looks_like_it_goes(method, name):
     judge = Judge(ROWS[name])
     verdict = judge.judged(judge.ground(Filter(method)))

@@ -128,6 +128,7 @@ def crossing(width=5, land=10, beside=0, height=0.0):
     return z
 
 
+@pytest.mark.rest(but="-2")
 @pytest.mark.parametrize("turn", range(4))
 @pytest.mark.parametrize(
     "valley, is_bridge",

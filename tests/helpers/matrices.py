@@ -5,16 +5,19 @@ import itertools
 import pytest
 
 
-def covering(*axes):
+def covering(*axes, rest=()):
     """Return all combinations, of which a Latin square is quick.
 
-    It has each value of two axes, and of more axes any two values together.
+    It has each value of two axes, and of more axes any two values together. Of it, what has a value
+    of `rest` is not daily.
     """
     shortest = min(map(len, axes))
     rows = []
     for numbers in itertools.product(*(range(len(axis)) for axis in axes)):
-        marks = pytest.mark.long if sum(numbers) % shortest else ()
-        rows.append(pytest.param(*(a[n] for a, n in zip(axes, numbers)), marks=marks))
+        values = [a[n] for a, n in zip(axes, numbers)]
+        marks = [pytest.mark.rest] * any(value in rest for value in values)
+        marks = pytest.mark.long if sum(numbers) % shortest else marks
+        rows.append(pytest.param(*values, marks=marks))
     return rows
 
 

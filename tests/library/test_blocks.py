@@ -24,7 +24,7 @@ def survey(tmp_path_factory):
     """Two files with a hole as wide as a building, and their classified copies."""
     folder = tmp_path_factory.mktemp("survey")
     (folder / "raw").mkdir()
-    points = strip(30_000, 600.0)
+    points = strip(15_000, 600.0)
     x, y = points[:, 0] / 100, points[:, 1] / 100
     points = points[(np.abs(x - 330) > 35) | (np.abs(y - 60) > 30)]
     for name, inside in (("a", points[:, 0] < 25_000), ("b", points[:, 0] >= 25_000)):

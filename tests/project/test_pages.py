@@ -6,6 +6,7 @@ from pathlib import Path
 
 import parameter_page
 import pytest
+from shipped import tree_of
 
 ROOT = Path(__file__).parents[2]
 # Of named tuples, of the system, and of these tests themselves.
@@ -37,19 +38,17 @@ def test_a_page_explains_each_noun_of_the_engine_once():
     explained = re.findall(r"`([A-Z]\w+)`", re.sub(r"; `\w+` chooses", "", table))
     nouns = []
     for path in (ROOT / "algorithms" / "engine").glob("*.py"):
-        tree = ast.parse(path.read_text(encoding="utf-8"))
-        nouns += [node.name for node in tree.body if isinstance(node, ast.ClassDef)]
+        nouns += [node.name for node in tree_of(path).body if isinstance(node, ast.ClassDef)]
     assert len(nouns) <= 60
     assert sorted(explained) == sorted(name for name in nouns if name[0] != "_")
 
 
 def _private_calls(path):
     """Yield what a test calls or replaces of others that begins with one underscore."""
-    text = path.read_text(encoding="utf-8")
-    # Most files have no such name at all, and to parse all of them takes seconds.
-    if not re.search(r"""[.'"]_[a-z]""", text):
+    # Most files have no such name at all, and to look through all of them takes seconds.
+    if not re.search(r"""[.'"]_[a-z]""", path.read_text(encoding="utf-8")):
         return
-    for node in ast.walk(ast.parse(text)):
+    for node in ast.walk(tree_of(path)):
         names = []
         if isinstance(node, ast.Attribute) and getattr(node.value, "id", "") not in ("self", "cls"):
             names = [node.attr]

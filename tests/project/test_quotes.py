@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Iterator
 
 import pytest
+from shipped import SHIPPED, tree_of
 
 from benchmarks.goldens.running import command_names, said_by
 
@@ -83,7 +84,7 @@ def without_numbers(text: str) -> str:
 
 def texts_of(path: Path) -> Iterator[str]:
     """Yield the texts of a module, with # where something is put in."""
-    for node in ast.walk(ast.parse(path.read_text("utf-8"))):
+    for node in ast.walk(tree_of(path)):
         if isinstance(node, ast.JoinedStr):
             parts = (part.value if isinstance(part, ast.Constant) else "#" for part in node.values)
             yield without_numbers("".join(map(str, parts)))
@@ -94,9 +95,7 @@ def texts_of(path: Path) -> Iterator[str]:
 @cache
 def texts_of_the_code() -> str:
     """Return all texts of algorithms and plugin."""
-    folders = (ROOT / "algorithms", ROOT / "plugin")
-    files = sorted(path for folder in folders for path in folder.rglob("*.py"))
-    return "\n".join(text for path in files for text in texts_of(path))
+    return "\n".join(text for path in SHIPPED for text in texts_of(path))
 
 
 def messages(text: str) -> list[str]:

@@ -3,7 +3,7 @@
 import laspy
 import numpy as np
 import pytest
-from runs import said
+from runs import FAST_WORDS, said
 from surveys import heights_of, write_points
 
 
@@ -41,7 +41,8 @@ def test_an_upright_slab_with_values_is_told(tmp_path):
     y = np.random.default_rng(2).uniform(0, 12, 4_000)
     told = said("classify", write_points(tmp_path / "in.laz", x, y, z, 1), tmp_path / "o.laz")[2]
     assert "Their heights reach 60 m: check whether y is up" in told
-    told = said("classify", write_points(tmp_path / "in.laz", x, z, y, 1), tmp_path / "p.laz")[2]
+    source = write_points(tmp_path / "in.laz", x, z, y, 1)
+    told = said("classify", source, tmp_path / "p.laz", *FAST_WORDS)[2]
     assert "y is up" not in told
 
 
@@ -67,5 +68,6 @@ def test_some_coordinates_that_were_cut_off_are_told(tmp_path, axis, is_survey):
     las[axis][:7] = 2**31 - 1
     las.write(source)
     target = tmp_path / ("out" if is_survey else "o.laz")
-    code, _, told = said("classify", source.parent if is_survey else source, target)
+    source = source.parent if is_survey else source
+    code, _, told = said("classify", source, target, *FAST_WORDS)
     assert code == 0 and f"{axis.lower()} of some points of a.laz is" in told
