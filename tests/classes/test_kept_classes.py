@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from matrices import quick
 from realdata import real
-from runs import FAST, Heard, said
+from runs import FAST, FAST_WORDS, Heard, said
 from surveys import heights_of, write_points
 
 from bare_earth import classify, terrain
@@ -135,7 +135,9 @@ def test_water_stays_and_the_log_says_so(tmp_path, source):
     assert np.count_nonzero(water) == 4727
     out = tmp_path / ("out.las" if source == "one.las" else "out")
     for words, stays in (((), True), (("--from-classes", "all"), False)):
-        code, text, told = said("classify", tmp_path / source, out, "--verbose", *words)
+        code, text, told = said(
+            "classify", tmp_path / source, out, "--verbose", *FAST_WORDS, *words
+        )
         assert code == 0
         found = laspy.read(out if source == "one.las" else out / "one.las")
         assert (np.asarray(found.classification)[water] == 9).all() == stays

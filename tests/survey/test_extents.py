@@ -79,6 +79,7 @@ def test_a_reversed_extent_is_not_read_in_an_order_that_does_not_fit(scene, tmp_
 
 def test_a_window_to_compare_settings_in_the_order_of_qgis(scene, tmp_path):
     words = ["--extent", "500010", "500030", "5500020", "5500050"]
+    words += ["--settings", "slope:whitebox", "grid-minimum:paper"]
     code, _, told = said("compare-settings", scene, tmp_path / "o.html", *words)
     assert code == 0 and "is taken as XMIN XMAX YMIN YMAX" in told
 

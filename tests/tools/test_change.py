@@ -258,6 +258,7 @@ def test_the_ground_of_clouds_is_found_first(tmp_path):
     assert found.by_error
 
 
+@pytest.mark.rest(but="True")
 @pytest.mark.parametrize("find_ground", [True, False])
 def test_surveys_of_many_files_have_the_change_of_one(tmp_path, find_ground):
     def change(x, y):
