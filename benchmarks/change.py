@@ -40,7 +40,7 @@ _STEEPEST = 0.4  # height of a heap or a landslide in relation to half of its wi
 _AREA = 8.0  # square metres over the limit from which a place should be found
 _SHARE = 0.5  # of a change that must be over the limit
 _ROOM = 3.0  # metres between changes
-_PARTS = ("stable", "rasters", "terrains", "changes", "objects")
+_PARTS = ("stable", "rasters", "canopy", "terrains", "changes", "objects")
 _TITLES = {
     "stable": "Halves of points, nothing changed",
     "rasters": "Terrain models of these halves, without their expected errors",
@@ -143,6 +143,26 @@ def stable(name: str, folder: Path, of_points: bool = True) -> dict[str, object]
         "tile": name, "share": share, "earth": 100.0 * earth / area, "places": found.place_count,
         "left out": found.left_out, "nmad": found.nmad, "limit": found.median_limit,
     }  # fmt: skip
+
+
+def canopy(name: str, folder: Path) -> str:
+    """Return a line about the canopy of both halves of a tile: the cells that flip, what is called
+    lost and gained in percent of the canopy, and the growth.
+    """
+    grid: dict[str, Path] = {}
+    for number, half in enumerate(halves(name)):
+        half.write(folder / "half.las")
+        bare_earth.classify(folder / "half.las", folder / "half.laz")
+        bare_earth.terrain(folder / "half.laz", chm=folder / f"chm{number}.tif", **grid)
+        grid = {"like": folder / "chm0.tif"}
+    models = folder / "chm0.tif", folder / "chm1.tif", folder / "difference.tif"
+    # Without a least width each cell that flips is a place.
+    flips = bare_earth.canopy_change(*models, least_width=0.0)
+    found = bare_earth.canopy_change(*models)
+    shares = (flips.lost_area, found.lost_area, found.gained_area)
+    told = " | ".join(f"{100.0 * area / max(found.area_before, 1.0):.2f}" for area in shares)
+    after = 100.0 * found.area_after / max(found.area_before, 1.0) - 100.0
+    return f"| {name} | {told} | {after:+.2f} | {found.growth or 0.0:+.2f} |"
 
 
 def _cell(folder: Path) -> float:
@@ -352,6 +372,11 @@ def report(seeds: int, tiles: tuple[str, ...], parts: set[str]) -> Iterator[str]
                     f"| {name} | {found['share']:.2f} | {found['earth']:.2f} | {found['places']} |"
                     f" {found['left out']} | {found['nmad']:.3f} | {found['limit']:.2f} |"
                 )
+        if "canopy" in parts:
+            yield "\nCanopy of these halves, % of the canopy:\n"
+            yield "| Tile | cells that flip | lost | gained | area | growth, m |"
+            yield "|---|--:|--:|--:|--:|--:|"
+            yield from (canopy(name, folder) for name in tiles)
         if "terrains" in parts:
             cases = list[Case]()
             for place, name in enumerate(tiles):

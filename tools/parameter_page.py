@@ -37,6 +37,7 @@ _SECTIONS = {
     "Checkpoints": ("Accuracy", "CheckOptions"),
     "Places to review": ("Review",),
     "Change": ("Comparison", "Places"),
+    "Canopy change": ("CanopyChanges",),
     "Quality": ("QualityOptions",),
     "Comparison with a reference": ("AssessmentOptions",),
     "Compare settings": ("TrialOptions",),

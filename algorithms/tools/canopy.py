@@ -53,8 +53,8 @@ class Canopy:
         return f"{self.cell_count:,} cells have a canopy height, up to {highest}."
 
 
-class _Heights:
-    """Surface and terrain of the cells of the surface model, in metres."""
+class TwoHeights:
+    """Heights of a raster and of another one at its cells, in metres."""
 
     def __init__(self, surface: HeightBand, terrain: Source, progress: Progress) -> None:
         self.surface, self.unit = surface, surface.frame.vertical_unit
@@ -94,7 +94,7 @@ def canopy_of_rasters(
 ) -> Canopy:
     """Write the height of a surface model above a terrain model, on the grid of the surface."""
     raster = read_raster(surface, window=NO_CELLS, progress=progress)
-    heights = _Heights(raster, terrain, progress)
+    heights = TwoHeights(raster, terrain, progress)
     found = _Found()
     parts = _parts(heights, parameters.pit_free, found, progress.part(0.0, 0.9))
     row, cells = (
@@ -136,7 +136,7 @@ class _Found:
 
 
 def _parts(
-    heights: _Heights, fills_pits: bool, found: _Found, progress: Progress
+    heights: TwoHeights, fills_pits: bool, found: _Found, progress: Progress
 ) -> Iterator[RasterPart]:
     """Yield the canopy height, some rows at a time."""
     margin, stored = PIT_PASSES if fills_pits else 0, heights.surface.stored

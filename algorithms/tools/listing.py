@@ -75,6 +75,10 @@ FILE_TOOLS = {
     "change": Listed(
         "change", "Finds where the ground changed between two surveys, how much, and how surely."
     ),
+    "canopy-change": Listed(
+        "canopy_change",
+        "Finds where canopy was lost and gained between two surveys, and how it grew.",
+    ),
     "relief": Listed(
         "relief",
         "Shows mounds, walls, ditches and old paths: sky view, openness, local relief, VAT.",

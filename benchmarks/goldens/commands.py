@@ -78,6 +78,8 @@ COMMANDS = {
     # From one raster to another.
     "contours": "contours terrain/file/dtm.tif OUT/lines.geojson --interval 0.5 --json",
     "canopy": "canopy terrain/file/dsm.tif terrain/file/dtm.tif OUT/chm.tif --pit-free --json",
+    "canopy-change": "canopy-change terrain/file/chm.tif canopy/chm.tif OUT/change.tif"
+    " --places OUT/places.geojson --least-width 1 --json",
     "off-terrain": "remove-off-terrain-objects terrain/file/dsm.tif OUT/dtm.tif --json",
     **{
         f"relief/{kind}": f"relief terrain/file/dtm.tif OUT/relief.tif --kind {kind}"

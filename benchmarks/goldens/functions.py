@@ -42,6 +42,9 @@ FUNCTIONS: dict[str, Callable[[Path], Any]] = {
     ),
     "contours": lambda out: bare.contours(_DTM, out / "lines.geojson"),
     "canopy": lambda out: bare.canopy("terrain/file/dsm.tif", _DTM, out / "chm.tif"),
+    "canopy_change": lambda out: bare.canopy_change(
+        "terrain/file/chm.tif", "canopy/chm.tif", out / "change.tif", least_width=1.0
+    ),
     "change": lambda out: bare.change(
         "terrain/file/dsm.tif", _DTM, out / "change.tif", places=out / "places.geojson"
     ),

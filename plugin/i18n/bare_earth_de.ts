@@ -92,6 +92,14 @@
         <translation>Fläche [m²]</translation>
     </message>
     <message>
+        <source>Area of canopy after, m2</source>
+        <translation>Kronenfläche nachher, m2</translation>
+    </message>
+    <message>
+        <source>Area of canopy before, m2</source>
+        <translation>Kronenfläche vorher, m2</translation>
+    </message>
+    <message>
         <source>As ground, this place would rise by up to {} m; its expected error is {} m. Press G again if that is right.</source>
         <translation>Als Boden würde diese Stelle um bis zu {} m höher; ihr erwarteter Fehler ist {} m. Drücken Sie noch einmal G, wenn das stimmt.</translation>
     </message>
@@ -168,6 +176,14 @@
         <translation>Abgebrochen.</translation>
     </message>
     <message>
+        <source>Canopy change</source>
+        <translation>Veränderung der Kronen</translation>
+    </message>
+    <message>
+        <source>Canopy gained, m2</source>
+        <translation>Gewonnene Kronenfläche, m2</translation>
+    </message>
+    <message>
         <source>Canopy height</source>
         <translation>Kronenhöhe</translation>
     </message>
@@ -178,6 +194,10 @@
     <message>
         <source>Canopy height from two rasters</source>
         <translation>Kronenhöhe aus zwei Rastern</translation>
+    </message>
+    <message>
+        <source>Canopy lost, m2</source>
+        <translation>Verlorene Kronenfläche, m2</translation>
     </message>
     <message>
         <source>Cause</source>
@@ -222,6 +242,10 @@
     <message>
         <source>Change between two surveys</source>
         <translation>Veränderung zwischen zwei Befliegungen</translation>
+    </message>
+    <message>
+        <source>Change of the canopy</source>
+        <translation>Veränderung der Kronenhöhe</translation>
     </message>
     <message>
         <source>Change of the ground</source>
@@ -660,6 +684,10 @@
         <translation>Findet, wo ein Geländemodell falsch sein kann: was zuerst anzusehen ist, und warum.</translation>
     </message>
     <message>
+        <source>Finds where canopy was lost and gained between two surveys, and how it grew.</source>
+        <translation>Findet, wo zwischen zwei Befliegungen Kronenfläche verloren ging und dazukam, und wie die Kronen wuchsen.</translation>
+    </message>
+    <message>
         <source>Finds where the ground changed between two surveys, how much, and how surely.</source>
         <translation>Findet, wo sich der Boden zwischen zwei Befliegungen verändert hat, wie stark und wie sicher.</translation>
     </message>
@@ -1036,8 +1064,16 @@
         <translation>Kleinste Höhe eines Dachs</translation>
     </message>
     <message>
+        <source>Least height of canopy</source>
+        <translation>Kleinste Kronenhöhe</translation>
+    </message>
+    <message>
         <source>Least low confidence area</source>
         <translation>Kleinste solche Fläche</translation>
+    </message>
+    <message>
+        <source>Least width</source>
+        <translation>Kleinste Breite</translation>
     </message>
     <message>
         <source>Leave out</source>
@@ -1132,6 +1168,10 @@
         <translation>Größte Geländeneigung</translation>
     </message>
     <message>
+        <source>Mean growth where canopy stays, m</source>
+        <translation>Mittlerer Zuwachs, wo Kronen bleiben, m</translation>
+    </message>
+    <message>
         <source>Measures densities, voids and strips, and compares them with a specification.</source>
         <translation>Misst Dichten, Lücken und Flugstreifen und vergleicht sie mit einer Spezifikation.</translation>
     </message>
@@ -1186,6 +1226,10 @@
     <message>
         <source>Negative openness</source>
         <translation>Negative Offenheit</translation>
+    </message>
+    <message>
+        <source>New canopy height (CHM)</source>
+        <translation>Neue Kronenhöhe (nDOM)</translation>
     </message>
     <message>
         <source>New survey</source>
@@ -1258,6 +1302,10 @@
     <message>
         <source>Number of strips</source>
         <translation>Anzahl der Flugstreifen</translation>
+    </message>
+    <message>
+        <source>Old canopy height (CHM)</source>
+        <translation>Alte Kronenhöhe (nDOM)</translation>
     </message>
     <message>
         <source>Old survey</source>
@@ -2120,12 +2168,20 @@
         <translation>Kronenhöhe</translation>
     </message>
     <message>
+        <source>canopy change</source>
+        <translation>Veränderung der Kronen</translation>
+    </message>
+    <message>
         <source>change</source>
         <translation>Veränderung</translation>
     </message>
     <message>
         <source>change,difference,dod,volume,erosion,landslide,detection,m3c2</source>
         <translation>Veränderung,Differenz,DoD,Volumen,Erosion,Rutschung,Erdrutsch,Nachweis,M3C2</translation>
+    </message>
+    <message>
+        <source>change,difference,forest,growth,loss,logging,windthrow,gaps,cover</source>
+        <translation>Veränderung,Differenz,Wald,Zuwachs,Verlust,Holzernte,Windwurf,Lücken,Deckung</translation>
     </message>
     <message>
         <source>checkpoints,check points,control points,gcp,accuracy,quality,rmse,rmsez,vertical accuracy,nva,vva,asprs,validation,lascontrol,hold-out</source>

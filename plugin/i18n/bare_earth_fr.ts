@@ -92,6 +92,14 @@
         <translation>Surface [m²]</translation>
     </message>
     <message>
+        <source>Area of canopy after, m2</source>
+        <translation>Surface de canopée après, m2</translation>
+    </message>
+    <message>
+        <source>Area of canopy before, m2</source>
+        <translation>Surface de canopée avant, m2</translation>
+    </message>
+    <message>
         <source>As ground, this place would rise by up to {} m; its expected error is {} m. Press G again if that is right.</source>
         <translation>Classé en sol, cet endroit monterait de {} m au plus ; son erreur attendue est de {} m. Appuyez encore sur G si c'est juste.</translation>
     </message>
@@ -168,6 +176,14 @@
         <translation>Annulé.</translation>
     </message>
     <message>
+        <source>Canopy change</source>
+        <translation>Changement de la canopée</translation>
+    </message>
+    <message>
+        <source>Canopy gained, m2</source>
+        <translation>Canopée gagnée, m2</translation>
+    </message>
+    <message>
         <source>Canopy height</source>
         <translation>Hauteur de canopée</translation>
     </message>
@@ -178,6 +194,10 @@
     <message>
         <source>Canopy height from two rasters</source>
         <translation>Hauteur de canopée à partir de deux rasters</translation>
+    </message>
+    <message>
+        <source>Canopy lost, m2</source>
+        <translation>Canopée perdue, m2</translation>
     </message>
     <message>
         <source>Cause</source>
@@ -222,6 +242,10 @@
     <message>
         <source>Change between two surveys</source>
         <translation>Changement entre deux levés</translation>
+    </message>
+    <message>
+        <source>Change of the canopy</source>
+        <translation>Changement de la hauteur de canopée</translation>
     </message>
     <message>
         <source>Change of the ground</source>
@@ -660,6 +684,10 @@
         <translation>Trouve où un modèle de terrain peut être faux : ce qu'il faut regarder d'abord, et pourquoi.</translation>
     </message>
     <message>
+        <source>Finds where canopy was lost and gained between two surveys, and how it grew.</source>
+        <translation>Trouve où la canopée a été perdue et gagnée entre deux levés, et combien elle a poussé.</translation>
+    </message>
+    <message>
         <source>Finds where the ground changed between two surveys, how much, and how surely.</source>
         <translation>Trouve où le sol a changé entre deux levés, de combien et avec quelle certitude.</translation>
     </message>
@@ -1036,8 +1064,16 @@
         <translation>Hauteur minimale d'un toit</translation>
     </message>
     <message>
+        <source>Least height of canopy</source>
+        <translation>Hauteur minimale de la canopée</translation>
+    </message>
+    <message>
         <source>Least low confidence area</source>
         <translation>Surface minimale de ces zones</translation>
+    </message>
+    <message>
+        <source>Least width</source>
+        <translation>Largeur minimale</translation>
     </message>
     <message>
         <source>Leave out</source>
@@ -1132,6 +1168,10 @@
         <translation>Pente maximale du terrain</translation>
     </message>
     <message>
+        <source>Mean growth where canopy stays, m</source>
+        <translation>Croissance moyenne où la canopée reste, m</translation>
+    </message>
+    <message>
         <source>Measures densities, voids and strips, and compares them with a specification.</source>
         <translation>Mesure densités, vides et bandes de vol, et les compare à une spécification.</translation>
     </message>
@@ -1186,6 +1226,10 @@
     <message>
         <source>Negative openness</source>
         <translation>Ouverture négative</translation>
+    </message>
+    <message>
+        <source>New canopy height (CHM)</source>
+        <translation>Nouvelle hauteur de canopée (MHC)</translation>
     </message>
     <message>
         <source>New survey</source>
@@ -1258,6 +1302,10 @@
     <message>
         <source>Number of strips</source>
         <translation>Nombre de bandes</translation>
+    </message>
+    <message>
+        <source>Old canopy height (CHM)</source>
+        <translation>Ancienne hauteur de canopée (MHC)</translation>
     </message>
     <message>
         <source>Old survey</source>
@@ -2120,12 +2168,20 @@
         <translation>canopée</translation>
     </message>
     <message>
+        <source>canopy change</source>
+        <translation>changement de la canopée</translation>
+    </message>
+    <message>
         <source>change</source>
         <translation>changement</translation>
     </message>
     <message>
         <source>change,difference,dod,volume,erosion,landslide,detection,m3c2</source>
         <translation>changement,différence,volume,érosion,glissement,détection,déblai,M3C2</translation>
+    </message>
+    <message>
+        <source>change,difference,forest,growth,loss,logging,windthrow,gaps,cover</source>
+        <translation>changement,différence,forêt,croissance,perte,coupe,chablis,trouées,couvert</translation>
     </message>
     <message>
         <source>checkpoints,check points,control points,gcp,accuracy,quality,rmse,rmsez,vertical accuracy,nva,vva,asprs,validation,lascontrol,hold-out</source>

@@ -80,6 +80,7 @@ LOW_CONFIDENCE = LayerLook(mark("Low confidence areas"), 8, vectors.low_confiden
 PLACES = LayerLook(mark("Places to review"), 10, vectors.places)
 _EVEN = looks.Ramp(looks.CHANGES, is_even=True, least=2.0)
 CHANGE = _drawn(mark("Change of the ground"), looks.Look(_EVEN, 5, 1))
+CANOPY_CHANGE = _drawn(mark("Change of the canopy"), looks.Look(_EVEN, 5, 1))
 LIMIT = _drawn(mark("Detection limit"), looks.Look(looks.Ramp(looks.ERRORS, low=0.0), 4, 1))
 CHANGED = LayerLook(mark("Places of change"), 10, vectors.changes)
 # Beside those of `RASTERS`.
@@ -95,6 +96,7 @@ _LOOKS: dict[str, LayerLook | Callable[[Any], LayerLook]] = {
     "places": PLACES,
     "low confidence": LOW_CONFIDENCE,
     "change": CHANGE,
+    "canopy change": CANOPY_CHANGE,
     "detection limit": LIMIT,
     "places of change": CHANGED,
     "contours": lambda found: contours(found),

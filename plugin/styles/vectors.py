@@ -130,9 +130,10 @@ def water(layer: QgsVectorLayer) -> None:
 def changes(layer: QgsVectorLayer) -> None:
     """Outline what rose in blue and what sank in red, thinner what is probably no earth."""
     root = QgsRuleBasedRenderer.Rule(None)
+    is_meant = "(\"KIND\" = 'earth' OR \"KIND\" LIKE 'canopy %')"
     rules = (
-        (tr("Risen"), "#21598f", '"MEAN" >= 0 AND "KIND" = \'earth\'', "0.6"),
-        (tr("Sunk"), "#9c2f2b", '"MEAN" < 0 AND "KIND" = \'earth\'', "0.6"),
+        (tr("Risen"), "#21598f", f'"MEAN" >= 0 AND {is_meant}', "0.6"),
+        (tr("Sunk"), "#9c2f2b", f'"MEAN" < 0 AND {is_meant}', "0.6"),
         (tr("Probably no earth"), "#5b5b5b", "ELSE", "0.3"),
     )
     for text, colour, rule, width in rules:

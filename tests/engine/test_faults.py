@@ -47,6 +47,7 @@ COMMANDS = {
     "compare": "compare-settings {one} OUT/page.html --settings slope:town slope:automatic"
     " --extent 500000 5700000 500100 5700100",
     "canopy": "canopy {dsm} {dsm} OUT/chm.tif",
+    "canopy-change": "canopy-change {dsm} {dsm} OUT/chm.tif --places OUT/places.geojson",
     "objects": "remove-off-terrain-objects {dsm} OUT/dtm.tif",
 }
 # Those that write many files, of which each is told on its own.

@@ -46,6 +46,23 @@ def test_two_rasters_one_of_them_a_layer(registry, tmp_path, context, log):
     assert ramp.minimumValue() == -ramp.maximumValue() < 0.0
 
 
+def test_canopy_of_two_rasters(registry, tmp_path, context, log):
+    heights = {"OLD": terrain(tmp_path / "old.tif"), "NEW": terrain(tmp_path / "new.tif", 2.0)}
+    out = {"OUTPUT": str(tmp_path / "out.tif"), "PLACES": str(tmp_path / "p.gpkg")}
+    algorithm = registry.createAlgorithmById("bareearth:canopychange")
+    results, ok = algorithm.run({**heights, **out, "LEAST_HEIGHT": 51.6}, context, log)
+    assert ok, log.text
+    assert (
+        results["PLACE_COUNT"] == 1
+        and results["GAINED_AREA"] > 100.0 == 100.0 + results["LOST_AREA"]
+    )
+    places = QgsVectorLayer(out["PLACES"])
+    layers.look_of("places of change").dress(places)
+    rule = places.renderer().rootRule().children()[0]
+    (place,) = places.getFeatures(rule.filterExpression())
+    assert place["KIND"] == "canopy gained"
+
+
 def test_points_are_files_that_qgis_need_not_load(registry, scene, tmp_path, context, log):
     cloud = scene.with_classes(tmp_path / "ground.laz", other=1)
     algorithm = registry.createAlgorithmById(ALGORITHM)

@@ -168,6 +168,9 @@ PARAMETERS = {
         "INPUT", "EXTENT", "BOUNDARY", "CRS", "THREADS", "MEMORY", "LIMIT", "OUTPUT",
     ],
     "bareearth:canopyheight": ["SURFACE", "TERRAIN", "PIT_FREE", "OUTPUT"],
+    "bareearth:canopychange": [
+        "OLD", "NEW", "LEAST_HEIGHT", "LEAST_WIDTH", "OUTPUT", "PLACES",
+    ],
     "bareearth:contours": [
         "INPUT", "CONTOUR_INTERVAL", "CONTOUR_SMOOTHING", "CONTOUR_MIN_LENGTH", "CONTOUR_KNOLLS",
         "OUTPUT",
@@ -297,6 +300,16 @@ OUTPUTS = {
     ],
     "bareearth:removeoffterrainobjects": ["OUTPUT", "CELL_COUNT", "REMOVED_COUNT"],
     "bareearth:canopyheight": ["OUTPUT", "CELL_COUNT", "MAXIMUM"],
+    "bareearth:canopychange": [
+        "OUTPUT",
+        "PLACES",
+        "AREA_BEFORE",
+        "AREA_AFTER",
+        "PLACE_COUNT",
+        "LOST_AREA",
+        "GAINED_AREA",
+        "GROWTH",
+    ],
     "bareearth:clip": ["OUTPUT", "POINT_COUNT"],
     "bareearth:contours": ["OUTPUT", "LINE_COUNT", "HEIGHT"],
 }

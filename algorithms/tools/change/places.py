@@ -162,7 +162,7 @@ def _joined(
     """Return the connected cells as places, those that are significant as a whole."""
     if not len(cells):
         return []
-    labels = _connected(cells, pair.grid.whole[1])
+    labels = connected(cells, pair.grid.whole[1])
     order = np.argsort(labels, kind="stable")
     ends = np.flatnonzero(np.diff(labels[order])) + 1
     places = []
@@ -181,7 +181,7 @@ def _joined(
     return places
 
 
-def _connected(cells: np.ndarray, columns: int) -> np.ndarray:
+def connected(cells: np.ndarray, columns: int) -> np.ndarray:
     """Return a number for each connected group of cells, given their places in the raster,
     ascending.
     """
