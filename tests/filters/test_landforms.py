@@ -5,6 +5,7 @@ import pytest
 from matrices import covering
 
 from bare_earth.algorithms.core.points import Points
+from bare_earth.algorithms.core.progress import SILENT
 from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.filters.stages.bunds import Bunds
 from bare_earth.algorithms.grids.bridge_decks import bridge_decks
@@ -16,7 +17,8 @@ ROWS = {row.name: row for row in rows()}
 STAY = (
     "moat-50x6x2.5-slope0-2pm2-b", "channels-26x4x2.5-slope0-8pm2-b",
     "channels-40x6x3-slope0-2pm2-b", "approach-14x6-slope0-2pm2-a", "bund-0.6x1.5-slope0-8pm2-b",
-    "butte-60x13-slope10-2pm2-b",
+    "butte-60x13-slope10-2pm2-b", "bend-9x4-slope0-8pm2-b", "crater-4x1-slope0-20pm2-a",
+    "fissures-14x1.5x2-slope5-8pm2-a",
 )  # fmt: skip
 GO = (
     "blocks-25x15x5x3x3-slope0-8pm2-a", "grandstand-14x50x2.2-slope0-4pm2-a",
@@ -72,3 +74,17 @@ def test_a_bank_is_as_high_along_its_crest_and_bushes_in_a_row_are_not():
     bushes = 1.5 * np.sqrt(np.clip(1.0 - (np.hypot(x, np.mod(y, 5.0) - 2.5) / 2.5) ** 2, 0.0, None))
     found = [Bunds().on_bank(Points(x, y, heights), heights) for heights in (bank, bushes)]
     assert found[0][bank > 0.0].mean() > 0.7 and not found[1].any()
+
+
+def test_points_at_the_edge_of_a_drop_join_the_ground_and_no_leaf_of_a_hedge_there_does():
+    random = np.random.default_rng(9)
+    x, y = random.uniform(0.0, 40.0, (2, 12_800))
+    ditch, hedge = np.abs(x - 20.0) < 1.5, (np.abs(x - 22.5) < 0.6) & (y > 20.0)
+    z = 100.0 - 1.5 * ditch + random.normal(0.0, 0.02, len(x))
+    points = Points(x, y, np.where(hedge, z + random.uniform(0.1, 1.2, len(x)), z))
+    edge = ~ditch & (np.abs(x - 20.0) < 2.5) & (y < 19.0)
+    for method in METHODS.values():
+        pipeline = method.pipeline(points, method.parameters(), SILENT)
+        ground, before = pipeline.run(points).ground, pipeline.without("edges").run(points).ground
+        assert ground[edge].mean() > 0.99 and before[edge].mean() < 0.92
+        assert np.array_equal(ground[hedge], before[hedge])

@@ -5,7 +5,7 @@ from __future__ import annotations
 from ..pipeline import Pipeline, Rule
 from .accept import NearSurface
 from .below_land import BelowLand
-from .breaks import LevelSeeds, Plants
+from .breaks import Edges, LevelSeeds, Plants
 from .bunds import Bunds
 from .low_noise import BelowWater, LowGroups
 from .objects import RaisedObjects
@@ -54,6 +54,7 @@ def shared_pipeline(
             *surface,
             tolerance,
             NearSurface(),
+            Edges(),
             *accepted,
         )
     )

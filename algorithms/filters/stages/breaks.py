@@ -29,6 +29,7 @@ from .seeds import DENSE_SPACING, openness
 # metres.
 _SPACINGS = 5.0
 _LEAST_REACH = 6.0
+_LEAST_EDGE_REACH = 1.5  # the same for ground beside an edge
 # Half the side of the windows of a mean surface, in spacings of the seeds.
 _MEAN_SPACINGS = 1.5
 
@@ -154,6 +155,90 @@ class LevelSeeds(PointRule):
         return joins
 
 
+@dataclass(frozen=True)
+class Edges(PointRule):
+    """A point beside a drop is ground if it lies on the plane of the ground on one side."""
+
+    # At the edges of ditches, ramps and craters, cells hold points of the drop as well, so that the
+    # surface through their lowest points leaves out those of the edge.
+
+    stage: ClassVar = Stage.ACCEPTED
+    writes: ClassVar = ("ground",)
+
+    drop: float = 0.6  # least depth in metres of ground beside the edge, below the plane
+    beside: float = 2.0  # metres from the edge, in cells, within which ground is so deep
+    level: float = 0.08  # largest distance in metres from the plane
+    misfit: float = 0.06  # largest misfit of the plane in metres
+    passes: int = 3  # points that join the ground in one pass count in the next
+    # Nothing stands higher above the point within a cell, in metres: plants and walls are level
+    # with the ground above them.
+    open_above: float = 1.0
+
+    def apply(self, state: State) -> None:
+        """Let points at edges join the ground."""
+        if state.spacing <= DENSE_SPACING or state.from_images:
+            return
+        points, cells, reach = state.points, state.grids[0].cells, _SPACINGS * state.spacing
+        reach = max(reach, _LEAST_EDGE_REACH)
+        all_points = slice(None) if state.low_noise is None else ~state.low_noise
+        lowest = _around(cells, points, state.ground, self.beside)
+        top = -_around(cells, points, all_points, cells.size, -1.0)
+        highest = -_around(cells, points, state.ground, cells.size, -1.0)
+        drops = highest - lowest > self.drop
+        doubtful = cells.points_in(drops)
+        doubtful = doubtful[~state.ground[doubtful]]
+        z, cell = points.z[doubtful], cells.index[doubtful]
+        depth = z - lowest.ravel()[cell]
+        # Crowns are far above the ground beside them, and low noise is infinitely high.
+        judged = (depth > self.drop) & (z - highest.ravel()[cell] < self.drop)
+        judged &= top.ravel()[cell] - z < self.open_above
+        doubtful, depth = doubtful[judged], depth[judged]
+        for _ in range(self.passes):
+            joins = self._joins(state, doubtful, depth, reach)
+            joined, rest = doubtful[joins], ~joins
+            state.ground[joined] = True
+            # Only what is near these can join in the next pass.
+            beside = _within(cells, joined, reach).ravel()[cells.index[doubtful]]
+            doubtful, depth = doubtful[rest & beside], depth[rest & beside]
+
+    def _joins(
+        self,
+        state: State,
+        doubtful: np.ndarray,
+        depth: np.ndarray,
+        reach: float,
+    ) -> np.ndarray:
+        """Return which points lie on the plane of one side, given how high they lie above the
+        lowest ground beside them.
+        """
+        cells = state.grids[0].cells
+        ground = cells.points_in(_within(cells, doubtful, reach))
+        ground = ground[state.ground[ground]]
+        across = self.beside + 0.5 * state.grids[0].cells.size
+
+        def fit(part: slice, rise: np.ndarray, *plane: np.ndarray) -> np.ndarray:
+            east, north, misfit = plane
+            below = depth[part].reshape(-1, *[1] * (rise.ndim - 1))
+            sinks = below - np.hypot(east, north) * across > self.drop
+            return sinks & (misfit <= self.misfit) & (np.abs(rise) <= self.level)
+
+        ground, judged = (state.points.take(some) for some in (ground, doubtful))
+        return fit(slice(None), *Sides(ground, reach).planes(judged, enough=fit)).any(axis=1)
+
+
+def _within(cells: Cells, some: np.ndarray, reach: float) -> np.ndarray:
+    """Return the cells within a reach of some points."""
+    return within_square(np.maximum, cells.holding(some), int(np.ceil(reach / cells.size)))
+
+
+def _around(
+    cells: Cells, points: Points, selected: np.ndarray | slice, metres: float, sign: float = 1.0
+) -> np.ndarray:
+    """Return the `_extreme` within some metres of each cell."""
+    steps = int(np.ceil(metres / cells.size))
+    return within_square(np.minimum, _extreme(cells, points, selected, sign), steps)
+
+
 def openness_of(state: State) -> np.ndarray:
     """Return the openness of each cell, and keep the rise of the seeds over a cell in the state."""
     grid = state.grids[0]
@@ -173,7 +258,9 @@ def mean_surface(points: Points, seeds: np.ndarray, cells: Cells, spacing: float
     return ndimage.uniform_filter(surface, width, mode="nearest")
 
 
-def _extreme(cells: Cells, points: Points, selected: np.ndarray, sign: float = 1.0) -> np.ndarray:
+def _extreme(
+    cells: Cells, points: Points, selected: np.ndarray | slice, sign: float = 1.0
+) -> np.ndarray:
     """Return the lowest height of selected points in each cell, or minus the highest with a sign of
     -1; infinite where there are none.
     """
