@@ -214,7 +214,7 @@ class Edges(PointRule):
         cells = state.grids[0].cells
         ground = cells.points_in(_within(cells, doubtful, reach))
         ground = ground[state.ground[ground]]
-        across = self.beside + 0.5 * state.grids[0].cells.size
+        across = self.beside + 0.5 * cells.size
 
         def fit(part: slice, rise: np.ndarray, *plane: np.ndarray) -> np.ndarray:
             east, north, misfit = plane
@@ -222,8 +222,10 @@ class Edges(PointRule):
             sinks = below - np.hypot(east, north) * across > self.drop
             return sinks & (misfit <= self.misfit) & (np.abs(rise) <= self.level)
 
-        ground, judged = (state.points.take(some) for some in (ground, doubtful))
-        return fit(slice(None), *Sides(ground, reach).planes(judged, enough=fit)).any(axis=1)
+        of_ground, judged = (state.points.take(some) for some in (ground, doubtful))
+        planes = Sides(of_ground, reach).planes(judged, enough=fit)
+        joins: np.ndarray = np.any(fit(slice(None), *planes), axis=1)
+        return joins
 
 
 def _within(cells: Cells, some: np.ndarray, reach: float) -> np.ndarray:
