@@ -81,6 +81,10 @@ RUNS: dict[str, tuple[str, dict[str, Any]]] = {
     "canopy": ("canopyheight", {
         "SURFACE": "terrain/dsm.tif", "TERRAIN": "terrain/dtm.tif", "OUTPUT": "OUT/chm.tif",
     }),
+    "canopy-change": ("canopychange", {
+        "OLD": "terrain/chm.tif", "NEW": "canopy/chm.tif", "LEAST_WIDTH": 1.0,
+        "OUTPUT": "OUT/change.tif",
+    }),
     "change": ("change", {
         "OLD": "terrain/dsm.tif", "NEW": "terrain/dtm.tif", "OUTPUT": "OUT/change.tif",
         "LIMIT": "OUT/limit.tif", "PLACES": "OUT/places.gpkg", "REPORT": "OUT/page.html",
