@@ -12,6 +12,7 @@ import rasterio
 from drawing import save, shade
 from matplotlib import pyplot
 from matplotlib.axes import Axes
+from matplotlib.image import AxesImage
 from matplotlib.patches import Rectangle
 
 import bare_earth
@@ -53,7 +54,7 @@ def _cells(path: Path) -> tuple[np.ndarray, rasterio.Affine]:
         return raster.read(1, masked=True).astype(float).filled(np.nan), ~raster.transform
 
 
-def _change(panel: Axes, folder: Path, new: str) -> object:
+def _change(panel: Axes, folder: Path, new: str) -> AxesImage:
     """Draw the change of a pair, and the places that were found."""
     files = [folder / name for name in ("old.laz", f"{new}.laz", "change.tif")]
     bare_earth.change(*files, places=folder / "places.geojson")

@@ -169,7 +169,6 @@ class Edges(PointRule):
     beside: float = 2.0  # metres from the edge, in cells, within which ground is so deep
     level: float = 0.08  # largest distance in metres from the plane
     misfit: float = 0.06  # largest misfit of the plane in metres
-    passes: int = 3  # points that join the ground in one pass count in the next
     # Nothing stands higher above the point within a cell, in metres: plants and walls are level
     # with the ground above them.
     open_above: float = 1.0
@@ -178,8 +177,8 @@ class Edges(PointRule):
         """Let points at edges join the ground."""
         if state.spacing <= DENSE_SPACING or state.from_images:
             return
-        points, cells, reach = state.points, state.grids[0].cells, _SPACINGS * state.spacing
-        reach = max(reach, _LEAST_EDGE_REACH)
+        points, cells = state.points, state.grids[0].cells
+        reach = max(_SPACINGS * state.spacing, _LEAST_EDGE_REACH)
         all_points = slice(None) if state.low_noise is None else ~state.low_noise
         lowest = _around(cells, points, state.ground, self.beside)
         top = -_around(cells, points, all_points, cells.size, -1.0)
@@ -193,13 +192,7 @@ class Edges(PointRule):
         judged = (depth > self.drop) & (z - highest.ravel()[cell] < self.drop)
         judged &= top.ravel()[cell] - z < self.open_above
         doubtful, depth = doubtful[judged], depth[judged]
-        for _ in range(self.passes):
-            joins = self._joins(state, doubtful, depth, reach)
-            joined, rest = doubtful[joins], ~joins
-            state.ground[joined] = True
-            # Only what is near these can join in the next pass.
-            beside = _within(cells, joined, reach).ravel()[cells.index[doubtful]]
-            doubtful, depth = doubtful[rest & beside], depth[rest & beside]
+        state.ground[doubtful[self._joins(state, doubtful, depth, reach)]] = True
 
     def _joins(
         self,
