@@ -144,8 +144,10 @@ class _Found:
             self._changed[kind].append(np.stack((place, (new - old)[wide])))
         known, was, is_now, old, new = (of[inner] for of in (known, was, is_now, old, new))
         stays = was & is_now
-        self._known, self._before = self._known + known.sum(), self._before + was.sum()
-        self._after, self._stays = self._after + is_now.sum(), self._stays + stays.sum()
+        self._known += int(np.count_nonzero(known))
+        self._before += int(np.count_nonzero(was))
+        self._after += int(np.count_nonzero(is_now))
+        self._stays += int(np.count_nonzero(stays))
         self._old += float(old[known].sum())
         self._new += float(new[known].sum())
         self._grown += float((new - old)[stays].sum())

@@ -57,7 +57,7 @@ def test_what_was_felled_planted_and_grew_is_told(tmp_path):
     assert found.known_area == known and found.area_before == known - 30 * 40
     assert found.area_after == found.area_before - 600 + 200
     assert (found.place_count, found.lost_area, found.gained_area) == (2, 600.0, 200.0)
-    assert found.growth == pytest.approx(GROWTH, abs=1e-3)
+    assert found.growth == pytest.approx(GROWTH, abs=1e-3) and type(found.growth) is float
     np.testing.assert_allclose(cells(tmp_path / "out.tif"), np.subtract(*forest()[::-1]), atol=1e-5)
     told = [
         one["properties"] for one in json.loads((tmp_path / "out.geojson").read_text())["features"]
