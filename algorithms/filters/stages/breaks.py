@@ -34,8 +34,8 @@ _LEAST_EDGE_REACH = 1.5  # the same for ground beside an edge
 _MEAN_SPACINGS = 1.5
 
 
-def _reach(spacing: float) -> float:
-    return max(_LEAST_REACH, _SPACINGS * spacing)
+def _reach(spacing: float, least: float = _LEAST_REACH) -> float:
+    return max(least, _SPACINGS * spacing)
 
 
 @dataclass(frozen=True)
@@ -137,8 +137,7 @@ class LevelSeeds(PointRule):
         cell, z = cells.index[waiting], points.z[waiting]
 
         def extreme(sign: float) -> np.ndarray:
-            nearest = within_square(np.minimum, _extreme(cells, points, seeds, sign), step)
-            return sign * nearest.ravel()[cell]
+            return sign * _around(cells, points, seeds, step, sign).ravel()[cell]
 
         low, high = in_threads(extreme, (1.0, -1.0))
         candidates = np.flatnonzero((z >= low - margin) & (z <= high + margin))
@@ -178,11 +177,12 @@ class Edges(PointRule):
         if state.spacing <= DENSE_SPACING or state.from_images:
             return
         points, cells = state.points, state.grids[0].cells
-        reach = max(_SPACINGS * state.spacing, _LEAST_EDGE_REACH)
+        reach = _reach(state.spacing, _LEAST_EDGE_REACH)
+        beside = int(np.ceil(self.beside / cells.size))
         all_points = slice(None) if state.low_noise is None else ~state.low_noise
-        lowest = _around(cells, points, state.ground, self.beside)
-        top = -_around(cells, points, all_points, cells.size, -1.0)
-        highest = -_around(cells, points, state.ground, cells.size, -1.0)
+        lowest = _around(cells, points, state.ground, beside)
+        top = -_around(cells, points, all_points, 1, -1.0)
+        highest = -_around(cells, points, state.ground, 1, -1.0)
         drops = highest - lowest > self.drop
         doubtful = cells.points_in(drops)
         doubtful = doubtful[~state.ground[doubtful]]
@@ -205,8 +205,8 @@ class Edges(PointRule):
         lowest ground beside them.
         """
         cells = state.grids[0].cells
-        ground = cells.points_in(_within(cells, doubtful, reach))
-        ground = ground[state.ground[ground]]
+        ground = np.flatnonzero(state.ground)
+        ground = ground[_near(cells, ground, doubtful, reach)]
         across = self.beside + 0.5 * cells.size
 
         def fit(part: slice, rise: np.ndarray, *plane: np.ndarray) -> np.ndarray:
@@ -221,16 +221,10 @@ class Edges(PointRule):
         return joins
 
 
-def _within(cells: Cells, some: np.ndarray, reach: float) -> np.ndarray:
-    """Return the cells within a reach of some points."""
-    return within_square(np.maximum, cells.holding(some), int(np.ceil(reach / cells.size)))
-
-
 def _around(
-    cells: Cells, points: Points, selected: np.ndarray | slice, metres: float, sign: float = 1.0
+    cells: Cells, points: Points, selected: np.ndarray | slice, steps: int, sign: float = 1.0
 ) -> np.ndarray:
-    """Return the `_extreme` within some metres of each cell."""
-    steps = int(np.ceil(metres / cells.size))
+    """Return the `_extreme` within some cells of each cell."""
     return within_square(np.minimum, _extreme(cells, points, selected, sign), steps)
 
 
