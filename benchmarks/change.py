@@ -21,7 +21,7 @@ from bare_earth.algorithms.rasters.geotiff import read_raster
 from bare_earth.algorithms.rasters.sampling import HeightRaster, HeightSampler
 from bare_earth.algorithms.tools.change import ChangeSummary
 
-from . import data
+from . import data, tables
 
 # Two cities, a cliff, two open forests, four conifer and mountain forests, a rain forest, crops,
 # and two clouds of images.
@@ -162,7 +162,8 @@ def canopy(name: str, folder: Path) -> str:
     shares = (flips.lost_area, found.lost_area, found.gained_area)
     told = " | ".join(f"{100.0 * area / max(found.area_before, 1.0):.2f}" for area in shares)
     after = 100.0 * found.area_after / max(found.area_before, 1.0) - 100.0
-    return f"| {name} | {told} | {after:+.2f} | {found.growth or 0.0:+.2f} |"
+    growth = tables.NONE if found.growth is None else f"{found.growth:+.2f}"
+    return f"| {name} | {told} | {after:+.2f} | {growth} |"
 
 
 def _cell(folder: Path) -> float:

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import laspy
 import numpy as np
-from scipy.interpolate import griddata
+from scipy.spatial import cKDTree
 
 from benchmarks.change import shape
 from benchmarks.scenes.classes import GROUND
@@ -77,10 +77,15 @@ def write_change(folder: Path) -> list[str]:
         laspy.LasData(las.header, las.points[which].copy()).write(folder / f"{name}.laz")
     new = laspy.LasData(las.header, las.points[~is_old].copy())
     x, y, z = xyz[~is_old].T
-    ground = griddata(known[:, :2], known[:, 2], (x, y), "nearest")
+    ground = _nearest(known, x, y)
     new.z = _changed(x, y, z, ground, random)
     new.write(folder / "new.laz")
     return _told(known)
+
+
+def _nearest(known: np.ndarray, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """Return the heights of the points that lie nearest to places."""
+    return known[cKDTree(known[:, :2]).query(np.column_stack((x, y)))[1], 2]
 
 
 def _changed(
@@ -108,6 +113,6 @@ def _told(known: np.ndarray) -> list[str]:
             for middle, half in ((put.x, put.along), (put.y, put.across))
         )
         x, y = map(np.ravel, np.meshgrid(*sides))
-        ground = griddata(known[:, :2], known[:, 2], (x, y), "nearest")
+        ground = _nearest(known, x, y)
         told.append(f"{put.name:<10}{earth(x, y, ground).sum() * _STEP**2:+7.1f} m3")
     return told

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import Iterator
+from typing import Callable, Iterator, NamedTuple
 
 import numpy as np
 
@@ -53,6 +53,16 @@ class Canopy:
         return f"{self.cell_count:,} cells have a canopy height, up to {highest}."
 
 
+class Block(NamedTuple):
+    """Heights of two rasters in a block and round it, in metres."""
+
+    first: np.ndarray
+    second: np.ndarray
+    inner: tuple[slice, slice]  # the cells of the block
+    row: int  # of the first row and column in the raster
+    column: int
+
+
 class TwoHeights:
     """Heights of a raster and of another one at its cells, in metres."""
 
@@ -84,6 +94,27 @@ class TwoHeights:
             heights = self._terrain.heights(*map(np.ravel, places)).reshape(surface.shape)
         return surface, heights.astype(np.float64) * self._terrain_unit
 
+    def cells(
+        self, margin: int, work: Callable[[Block], np.ndarray], progress: Progress
+    ) -> RasterCells:
+        """Return the cells of a raster on the grid of the first one: what `work` makes of a block
+        and of so many cells round it, in metres, NaN for no value.
+        """
+
+        def parts() -> Iterator[RasterPart]:
+            for start, end in stored.strips(_CELLS):
+                for first, last in stored.runs(start, end, margin):
+                    south, west = max(start - margin, 0), max(first - margin, 0)
+                    both = self.rows(south, end + margin, west, last + margin)
+                    inner = slice(start - south, end - south), slice(first - west, last - west)
+                    made = work(Block(*both, inner, south, west)) / self.unit
+                    cells = np.where(np.isnan(made), NODATA, made).astype(np.float32)
+                    yield RasterPart(start, first, cells)
+                progress(end / self.surface.whole[0])
+
+        stored = self.surface.stored
+        return RasterCells(self.surface.whole, "float32", parts(), made=stored.cells_of(_CELLS))
+
 
 def canopy_of_rasters(
     surface: Source,
@@ -96,12 +127,15 @@ def canopy_of_rasters(
     raster = read_raster(surface, window=NO_CELLS, progress=progress)
     heights = TwoHeights(raster, terrain, progress)
     found = _Found()
-    parts = _parts(heights, parameters.pit_free, found, progress.part(0.0, 0.9))
-    row, cells = (
-        RASTERS["chm"],
-        RasterCells(raster.whole, "float32", parts, made=raster.stored.cells_of(_CELLS)),
-    )
-    write_geotiff(output, cells, raster, NODATA, progress.part(0.9, 1.0), row.shows)
+
+    def canopy_of(block: Block) -> np.ndarray:
+        found.add((block.first - block.second)[block.inner])
+        canopy = canopy_height(block.first, block.second)
+        return (without_pits(canopy) if parameters.pit_free else canopy)[block.inner]
+
+    margin = PIT_PASSES if parameters.pit_free else 0
+    cells = heights.cells(margin, canopy_of, progress.part(0.0, 0.9))
+    write_geotiff(output, cells, raster, NODATA, progress.part(0.9, 1.0), RASTERS["chm"].shows)
     raster.tell(progress)
     read_raster(terrain, window=NO_CELLS).tell(progress)
     found.check(surface, terrain)
@@ -133,24 +167,6 @@ class _Found:
                 f" {self.count:,} cells. Give the surface model first, and rasters whose heights"
                 " have one unit and one vertical datum."
             )
-
-
-def _parts(
-    heights: TwoHeights, fills_pits: bool, found: _Found, progress: Progress
-) -> Iterator[RasterPart]:
-    """Yield the canopy height, some rows at a time."""
-    margin, stored = PIT_PASSES if fills_pits else 0, heights.surface.stored
-    for start, end in stored.strips(_CELLS):
-        for first, last in stored.runs(start, end, margin):
-            south, west = max(start - margin, 0), max(first - margin, 0)
-            surface, terrain = heights.rows(south, end + margin, west, last + margin)
-            inner = slice(start - south, end - south), slice(first - west, last - west)
-            found.add((surface - terrain)[inner])
-            canopy = canopy_height(surface, terrain)
-            canopy = (without_pits(canopy) if fills_pits else canopy)[inner] / heights.unit
-            cells = np.where(np.isnan(canopy), NODATA, canopy).astype(np.float32)
-            yield RasterPart(start, first, cells)
-        progress(end / heights.surface.whole[0])
 
 
 def is_same_grid(one: HeightBand, other: HeightBand) -> bool:

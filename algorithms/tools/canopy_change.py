@@ -15,18 +15,15 @@ from ..core.progress import SILENT, Progress
 from ..core.words import counted
 from ..rasters.content import NO_CELLS, Source
 from ..rasters.geotiff import NODATA, HeightBand, read_raster
-from ..rasters.sparse import RasterPart
-from ..rasters.writing import RasterCells, write_geotiff
+from ..rasters.writing import write_geotiff
 from ..survey.area import Polygon
 from ..survey.feature_files import Feature, FeatureLayer, feature_writer
-from .canopy import TwoHeights
+from .canopy import Block, TwoHeights
 from .change.places import ChangePlace, connected
 from .contours import corners_of
 from .declaration import CANOPY, RASTER, FileTool, Input, Output
 
 LOST, GAINED = "canopy lost", "canopy gained"
-# Cells that are worked on at a time.
-_CELLS = 4_000_000
 # No tree is higher: a raster whose cells are so high in the mean has heights above the sea.
 _HIGHEST = 130.0
 _FIELDS = {"RANK": int, "KIND": str, "AREA": float, "MEAN": float, "LARGEST": float}
@@ -93,8 +90,8 @@ def canopy_change(
     """
     raster = read_raster(old, window=NO_CELLS, progress=progress)
     found = _Found(raster, how)
-    parts = found.parts(TwoHeights(raster, new, progress), progress.part(0.0, 0.9))
-    cells = RasterCells(raster.whole, "float32", parts, made=raster.stored.cells_of(_CELLS))
+    heights = TwoHeights(raster, new, progress)
+    cells = heights.cells(found.margin, found.change_in, progress.part(0.0, 0.9))
     shows = "Change of the canopy, {unit}"
     write_geotiff(difference, cells, raster, NODATA, progress.part(0.9, 1.0), shows)
     found.check(old, new)
@@ -116,41 +113,33 @@ class _Found:
         self._old, self._new, self._grown = 0.0, 0.0, 0.0  # sums of heights and of growth
         self._changed: dict[str, list[np.ndarray]] = {LOST: [], GAINED: []}
 
-    def parts(self, heights: TwoHeights, progress: Progress) -> Iterator[RasterPart]:
-        """Yield the difference, some rows at a time."""
-        margin, stored = 2 * max(self._width), self._raster.stored
-        for start, end in stored.strips(_CELLS):
-            for first, last in stored.runs(start, end, margin):
-                south, west = max(start - margin, 0), max(first - margin, 0)
-                old, new = heights.rows(south, end + margin, west, last + margin)
-                inner = slice(start - south, end - south), slice(first - west, last - west)
-                self._add(old, new, inner, (south, west))
-                change = (new - old)[inner] / heights.unit
-                cells = np.where(np.isnan(change), NODATA, change).astype(np.float32)
-                yield RasterPart(start, first, cells)
-            progress(end / self._raster.whole[0])
+    @property
+    def margin(self) -> int:
+        """The cells round a block that its places need."""
+        return 2 * max(self._width)
 
-    def _add(
-        self, old: np.ndarray, new: np.ndarray, inner: tuple[slice, slice], corner: tuple[int, int]
-    ) -> None:
-        """Add cells, given those round them too, which places need."""
-        known = ~np.isnan(old + new)
+    def change_in(self, block: Block) -> np.ndarray:
+        """Return the change in a block, and add what is found there."""
+        old, new, inner = block.first, block.second, block.inner
+        change = new - old
+        known = ~np.isnan(change)
         was, is_now = (known & (of >= self._how.least_height) for of in (old, new))
         for kind, changed in ((LOST, was & ~is_now), (GAINED, is_now & ~was)):
             wide = np.zeros_like(changed)
             wide[inner] = _wide(changed, self._width)[inner]
             row, column = np.nonzero(wide)
-            place = (row + corner[0]).astype(np.int64) * self._raster.whole[1] + column + corner[1]
-            self._changed[kind].append(np.stack((place, (new - old)[wide])))
-        known, was, is_now, old, new = (of[inner] for of in (known, was, is_now, old, new))
+            place = (row + block.row).astype(np.int64) * self._raster.whole[1]
+            self._changed[kind].append(np.stack((place + column + block.column, change[wide])))
+        known, was, is_now, change = (of[inner] for of in (known, was, is_now, change))
         stays = was & is_now
         self._known += int(np.count_nonzero(known))
         self._before += int(np.count_nonzero(was))
         self._after += int(np.count_nonzero(is_now))
         self._stays += int(np.count_nonzero(stays))
-        self._old += float(old[known].sum())
-        self._new += float(new[known].sum())
-        self._grown += float((new - old)[stays].sum())
+        self._old += float(old[inner][known].sum())
+        self._new += float(new[inner][known].sum())
+        self._grown += float(change[stays].sum())
+        return change
 
     def check(self, old: Source, new: Source) -> None:
         """Refuse rasters that do not overlap, and those of heights above the sea."""
@@ -170,24 +159,20 @@ class _Found:
         found, none = list[ChangePlace](), np.empty(0)
         for kind, parts in self._changed.items():
             cells, change = np.concatenate(parts, axis=1) if parts else np.empty((2, 0))
-            if not len(cells):
-                continue
             order = np.argsort(cells)
             cells, change = cells[order].astype(np.int64), change[order]
-            labels = connected(cells, self._raster.whole[1])
-            by_place = np.argsort(labels, kind="stable")
-            for some in np.split(by_place, np.flatnonzero(np.diff(labels[by_place])) + 1):
-                at = np.divmod(cells[some], self._raster.whole[1])
-                found.append(
-                    ChangePlace(*at, none, change[some], none, none, self._side, 0.0, kind)
-                )
+            for some in connected(cells, self._raster.whole[1]):
+                rows, columns = np.divmod(cells[some], self._raster.whole[1])
+                values = none, change[some], none, none
+                found.append(ChangePlace(rows, columns, *values, self._side, 0.0, kind))
         return sorted(found, key=lambda place: (-len(place.rows), place.rows[0], place.columns[0]))
 
     def summary(self, places: list[ChangePlace]) -> CanopyChange:
         """Return the figures, given the places."""
         cell = self._side**2
         lost, gained = (
-            sum(place.area for place in places if place.kind == kind) for kind in (LOST, GAINED)
+            sum((place.area for place in places if place.kind == kind), 0.0)
+            for kind in (LOST, GAINED)
         )
         growth = round(self._grown / self._stays, 4) if self._stays else None
         known, before, after = (

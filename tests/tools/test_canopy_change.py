@@ -8,7 +8,7 @@ from runs import said
 
 import bare_earth
 from bare_earth import BareEarthError
-from bare_earth.algorithms.tools import canopy_change
+from bare_earth.algorithms.tools import canopy
 
 rasterio = pytest.importorskip("rasterio")
 
@@ -82,7 +82,7 @@ def test_edges_of_crowns_that_flip_are_no_places_and_narrow_ones_are_if_asked(tm
 def test_places_and_figures_are_the_same_in_pieces(tmp_path, monkeypatch):
     files = [*pair(tmp_path), tmp_path / "out.tif"]
     whole = bare_earth.canopy_change(*files)
-    monkeypatch.setattr(canopy_change, "_CELLS", 7 * SIDE)
+    monkeypatch.setattr(canopy, "_CELLS", 7 * SIDE)
     assert bare_earth.canopy_change(*files) == whole
 
 

@@ -160,13 +160,8 @@ def _joined(
     *values: np.ndarray,
 ) -> list[ChangePlace]:
     """Return the connected cells as places, those that are significant as a whole."""
-    if not len(cells):
-        return []
-    labels = connected(cells, pair.grid.whole[1])
-    order = np.argsort(labels, kind="stable")
-    ends = np.flatnonzero(np.diff(labels[order])) + 1
     places = []
-    for some in np.split(order, ends):
+    for some in connected(cells, pair.grid.whole[1]):
         rows, columns = np.divmod(cells[some], pair.grid.whole[1])
         old, change, limit, is_over = (value[some] for value in values)
         place = ChangePlace(rows, columns, old, change, limit, is_over, pair.cell, 0.0)
@@ -181,13 +176,15 @@ def _joined(
     return places
 
 
-def connected(cells: np.ndarray, columns: int) -> np.ndarray:
-    """Return a number for each connected group of cells, given their places in the raster,
+def connected(cells: np.ndarray, columns: int) -> list[np.ndarray]:
+    """Return the indices of each connected group of cells, given their places in the raster,
     ascending.
     """
     from scipy.sparse import coo_matrix
     from scipy.sparse.csgraph import connected_components
 
+    if not len(cells):
+        return []
     column, pairs = cells % columns, []
     for down, right in _NEIGHBOURS:
         there = (column + right >= 0) & (column + right < columns)
@@ -198,4 +195,6 @@ def connected(cells: np.ndarray, columns: int) -> np.ndarray:
     first, second = map(np.concatenate, zip(*pairs))
     shape = len(cells), len(cells)
     graph = coo_matrix((np.ones(len(first), dtype=bool), (first, second)), shape)
-    return connected_components(graph, directed=False)[1]
+    labels = connected_components(graph, directed=False)[1]
+    order = np.argsort(labels, kind="stable")
+    return np.split(order, np.flatnonzero(np.diff(labels[order])) + 1)
