@@ -99,9 +99,7 @@ class GroundClasses(ParameterSet):
             f" {present}. Classify its ground first, or choose other ground classes."
         )
 
-    def tell_of_survey(
-        self, files: Sequence[tuple[int, WithoutGround]], progress: Progress
-    ) -> None:
+    def report_survey(self, files: Sequence[tuple[int, WithoutGround]], progress: Progress) -> None:
         """Warn of files without ground, given how many ground points each has; refuse them if no
         file has any.
         """

@@ -81,7 +81,7 @@ class PointChooser:
         """
         if self.area is not None:
             if not counts.inside:
-                raise self.no_point_in_area(str(path), cast(Box, counts.bounds))
+                raise outside("the area", self.area.bounds, str(path), cast(Box, counts.bounds))
             progress.info(f"{counts.inside:,} of {counts.points:,} points lie in the area.")
         self.selection.tell(counts, path, progress, self.area is not None)
         if not counts.by_hand:
@@ -91,10 +91,6 @@ class PointChooser:
                 f"None of the {counts.inside:,} points in the area takes part. Choose"
                 " another area, or other returns or classes."
             )
-
-    def no_point_in_area(self, of: str, box: Box) -> BareEarthError:
-        """Return the error for an area without points of some files, given the extent of these."""
-        return outside("the area", cast(Area, self.area).bounds, of, box)
 
     def tell_of_corrections(self, progress: Progress) -> None:
         """If polygons of corrections set classes, warn that no point gets its class from them."""

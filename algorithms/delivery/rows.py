@@ -70,7 +70,7 @@ def _write_water(job: DeliveryJob, row: Row, progress: Progress) -> None:
     given, water = job.constraints.located(survey.place, progress), job.found_water
     if given.water or given.breaklines or not water:
         rasters = MakeRasters(model=job.set_of(TerrainModel), target=target)
-        cell = rasters.placed(survey.place).cell / VERTICES_A_SIDE
+        cell = rasters.in_crs(survey.place).cell / VERTICES_A_SIDE
         clouds = survey.parts(progress.part(0.0, 0.9))
         of_user = given_water(given, clouds, survey.crs, job.set_of(GroundClasses), cell)
         water = replace(water, breaklines=of_user.breaklines) if water else of_user

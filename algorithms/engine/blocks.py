@@ -75,7 +75,7 @@ class PlaneBlock(NamedTuple):
 
 @dataclass(frozen=True)
 class Blocks:
-    """How the plane is cut into blocks, from (0, 0) of the frame; in a survey, of the CRS."""
+    """How the plane is cut into blocks, from an origin."""
 
     side: float  # metres
     buffer: float  # metres
@@ -83,12 +83,15 @@ class Blocks:
     most_points: int = _MOST_POINTS
     start: float = 0.0  # as in `PlaneBlock`
     cost: Cost = _COST
+    origin: tuple[float, float] = (0.0, 0.0)  # of the frame, in units of the CRS
 
     @classmethod
-    def of(cls, reach: float, cost: Cost = _COST) -> Blocks:
+    def of(
+        cls, reach: float, cost: Cost = _COST, origin: tuple[float, float] = (0.0, 0.0)
+    ) -> Blocks:
         """Return the blocks for a step that uses points up to `reach` metres away."""
         side = max(_SIDE, _STEP * math.ceil(_REACHES * reach / _STEP))
-        return cls(side, reach, start=_START, cost=cost)
+        return cls(side, reach, start=_START, cost=cost, origin=origin)
 
     def memory(self, count: float, area: float = math.inf) -> int:
         """Estimate the bytes of memory that a block, or the largest of its parts, takes, given its

@@ -13,6 +13,7 @@ import numpy as np
 
 from ..classes.point_counts import by_class, count_classes
 from ..core.files import write_errors_told
+from ..core.points import Frame
 from ..core.progress import SILENT, Progress
 from ..core.unnamed import unnamed_file
 from ..las.cloud import PointCloud, survey_frame
@@ -28,7 +29,7 @@ from ..survey.shapes import Place
 from .disk_store import DiskStore, ValuesOnDisk
 from .memory import GIGABYTE, GivingBack, Resources
 from .memory_store import MemoryStore
-from .step import PointStep, Step
+from .step import Changes, PointStep, Step
 from .store import Store
 from .summary import TileSummary
 from .values import PointValues, numbered
@@ -180,12 +181,16 @@ class FilePoints:
         """Return a part as it is stored: a view of the cloud in memory, without new classes."""
         return self.cloud.take(where) if self.is_in_memory else part
 
+    def frame_of(self, step: Step) -> Frame:
+        """Return the frame in which a step works."""
+        crs = self.cloud.crs if self.is_in_memory else read_crs(self.file)
+        return survey_frame(crs, step.blocks.origin)
+
     def store_for(self, step: Step) -> Store:
         """Return an empty store for the points that a step needs."""
+        frame = self.frame_of(step)
         if self.is_in_memory:
-            frame = survey_frame(self.cloud.crs, step.origin)
             return MemoryStore(frame, step.blocks, step.kind)
-        frame = survey_frame(read_crs(self.file), step.origin)
         store = DiskStore(self._target, frame, step.blocks, step.kind)
         return self._files.enter_context(store)
 
@@ -198,7 +203,7 @@ def place_of(las: LasFile) -> Place:
 
 def copies_all_else(las: LasFile, target: Path, steps: Sequence[PointStep]) -> bool:
     """Return whether only the layers of classes are written, and all other bytes are copied."""
-    if remembers(las) or not all(step.only_classes for step in steps):
+    if remembers(las) or any(step.changes != Changes.CLASSES for step in steps):
         return False
     return layers_kept(las, target) is not None
 
@@ -215,6 +220,7 @@ class TileResult:
         if any(step.gives_classes for step in steps):
             self.classification = points.allocate(np.uint8)
         self._remembered: np.ndarray | None = None
+        self._kept: np.ndarray | None = None  # bool, (n,): which points are written; None for all
         # int64, (256,): points of each class in the output
         self.class_counts = np.zeros(256, dtype=np.int64)
 
@@ -231,37 +237,37 @@ class TileResult:
         return result
 
     def _add(self, where: slice, part: PointCloud) -> None:
+        kept = None
         for result, of_step in zip(self.results, self._values):
-            before, values = part, of_step.of(where, part)
-            part = result.applied(before, values)
-            result.add(where, before, part, values)
+            part, of_result = result.add(where, part, of_step.of(where, part))
+            kept = of_result if kept is None else kept
         if self.classification is not None:
             self.classification[where] = part.classification
             if part.remembered is not None:
                 if self._remembered is None:
                     self._remembered = self._points.allocate(np.uint8)
                 self._remembered[where] = part.remembered
-        classes, kept = part.classification, self.results[0].kept
-        self.class_counts += count_classes(classes if kept is None else classes[kept[where]])
+        classes = part.classification
+        if kept is not None:
+            if self._kept is None:
+                self._kept = self._points.allocate(bool)
+            self._kept[where] = kept
+            classes = classes[kept]
+        self.class_counts += count_classes(classes)
 
-    def check(self, progress: Progress) -> None:
-        """Report on one of many files."""
+    def report(self, progress: Progress, is_alone: bool = True) -> None:
+        """Report the results of the steps for the only file, or for one of many."""
         for result, values in zip(self.results, self._values):
-            result.check(progress, values.failure)
-
-    def tell(self, progress: Progress) -> None:
-        """Report the results of the steps."""
-        for result in self.results:
-            result.tell(progress)
+            result.report(progress, None if is_alone else values.failure)
 
     @property
     def is_empty(self) -> bool:
         """Whether no point is to be written."""
-        return self.results[0].is_empty
+        return not self.class_counts.any()
 
     def edits(self, progress: Progress = SILENT) -> Edits:
         """Return all changes of the file, or refuse a file that cannot hold them."""
-        edits = Edits(classification=self.classification)
+        edits = Edits(classification=self.classification, kept=self._kept)
         if self._remembered is not None:
             dimension = ExtraDimension(REMEMBERED, "Before changes by hand", self._remembered)
             edits = dataclasses.replace(edits, remembered=dimension)

@@ -3,27 +3,29 @@
 from __future__ import annotations
 
 from dataclasses import MISSING, fields
+from functools import partial
 from pathlib import Path
 from typing import Iterator, Sequence
 
 from ..core.files import Outputs
 from ..core.imports import import_early
-from ..core.points import Frame
 from ..core.progress import Progress
 from ..core.threads import may_use
-from ..las.cloud import PointCloud, survey_frame
+from ..las.cloud import PointCloud
 from ..las.lasfile import LasFile
 from ..las.writing import write_without_points
 from ..survey.files import Inputs
 from .execution import Execution
 from .file_points import FilePoints, TileResult, copies_all_else, place_of
-from .step import PointStep, Step, placed
+from .step import PointStep, Sink, steps_in_crs
 from .summary import RunSummary
 from .values import PointValues, with_values
 from .visits import Work, visited
 
 # The weight of reading in the progress, in the unit of `Step.weight`.
 _READING = 1.5
+# The weight of writing the outputs of a sink, as a share of `Step.weight`.
+_OUTPUTS = 0.25
 # The share of the progress before points are written.
 _BEFORE_WRITING = 0.92
 
@@ -37,7 +39,7 @@ class OneFile(Execution):
         """Open the file, and refuse before any reading what its header shows to be unsuitable."""
         (self._las,) = inputs.open(self.progress).tiles
         for step in self.steps:
-            step.placed(place_of(self._las))
+            step.in_crs(place_of(self._las))
 
     def copy_empty(self, layouts: Sequence[LasFile], target: Path) -> RunSummary:
         """Write the file unchanged, and no other output, since these are made of points."""
@@ -85,7 +87,7 @@ class OneFile(Execution):
     ) -> None:
         """Let the steps work on points; `outputs` are needed if steps write files."""
         self._points, self._values = points, list[PointValues]()
-        self.steps = placed(self.steps, points.place, self.progress)
+        self.steps = steps_in_crs(self.steps, points.place, self.progress)
         start, weights = 0, [step.weight for step in self.steps]
         total = sum(weights)
         while start < len(self.steps):
@@ -100,46 +102,42 @@ class OneFile(Execution):
         return next(ends, len(self.steps))
 
     def _work_group(self, group: slice, progress: Progress, outputs: Outputs) -> None:
-        points = self._points
-        works = [Work(step, points.store_for(step)) for step in self.steps[group]]
-        reading = points.sparing(progress.part(0.0, 0.08))
-        for where, part in with_values(points.parts(reading, self._reads_once), self._values):
+        points, works = self._points, []
+        first = points.sparing(progress.part(0.0, 0.04))
+        for step in self.steps[group]:
+            if isinstance(step, Sink):
+                frame = points.frame_of(step)
+                step = step.with_all_points(partial(self._read, first), frame, first)
+            works.append(Work(step, points.store_for(step)))
+        reading = points.sparing(progress.part(0.04, 0.08))
+        is_last = not any(isinstance(step, PointStep) for step in self.steps)
+        for where, part in with_values(points.parts(reading, is_last), self._values):
             stored = points.as_stored(where, part)
             for work in works:
                 work.add(part, stored)
         shares = progress.part(0.08, 0.12).shares(*[1.0] * len(works))
         for work, share in zip(works, shares):
-            work.step.tell(work.counts, points.path, progress)
+            work.step.report_counts(work.counts, points.path, progress)
             work.store.finish(share)
         weights = [work.step.weight for work in works]
-        output_weights = [work.step.weight * work.step.weight_of_outputs for work in works]
+        sinks = [work.step for work in works if isinstance(work.step, Sink)]
+        output_weights = [step.weight * _OUTPUTS for step in sinks]
         working, *writing = progress.part(0.12, 1.0).shares(sum(weights), *output_weights)
-        for work in works:
-            work.step = work.step.with_all_points(self._read, self._frame_of(work.step), working)
         results = visited(works, points.resources, working)
-        for work, result, share in zip(works, results, writing):
-            step = work.step
-            if isinstance(step, PointStep):
-                self._values.append(PointValues(step, work.store))
-            else:
-                result = [of_block for _, of_block in result]
-            summary = step.finish(result, self._frame_of(step), outputs, share)
-            self.step_summaries.append(summary)
+        for work, result in zip(works, results):
+            if isinstance(work.step, PointStep):
+                self._values.append(PointValues(work.step, work.store))
+            elif isinstance(work.step, Sink):
+                arrays = [of_block for _, of_block in result]
+                frame, share = points.frame_of(work.step), writing.pop(0)
+                self.step_summaries.append(work.step.finish(arrays, frame, outputs, share))
 
-    @property
-    def _reads_once(self) -> bool:
-        """Whether the points are read only once, as no step gives values or reads them first."""
-        return not any(isinstance(step, PointStep) or step.reads_all_first for step in self.steps)
-
-    def _frame_of(self, step: Step) -> Frame:
-        return survey_frame(self._points.cloud.crs, step.origin)
-
-    def _read(self) -> Iterator[PointCloud]:
+    def _read(self, progress: Progress) -> Iterator[PointCloud]:
         """Yield the points with the values of the steps that have worked, part by part."""
-        return (part for _, part in with_values(self._points.parts(), self._values))
+        return (part for _, part in with_values(self._points.parts(progress), self._values))
 
     def result(self, progress: Progress) -> TileResult:
         """Return the results of the steps for all points."""
         result = TileResult.collected(self._points, self._values, progress)
-        result.tell(progress)
+        result.report(progress)
         return result

@@ -11,12 +11,11 @@ from collections import defaultdict
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
-from typing import Iterator, NamedTuple
+from typing import Any, Iterator, Mapping, NamedTuple
 
 import numpy as np
 
 from ..core.errors import BareEarthError, Cancelled, NoGround
-from ..core.files import replacing
 from ..core.progress import Notes, Progress
 from ..core.threads import SharedThreads
 from ..las.cloud import PointCloud
@@ -33,7 +32,7 @@ from .step import Sink
 from .store import Store
 from .summary import JobCost, TileSummary
 from .unpacking import Unpacking
-from .values import BlockFiles, BlockValues, applied
+from .values import BlockFiles, BlockValues, applied, write_arrays
 from .visits import Work
 
 # The time of a point in a block, in proportion to that of reading and writing it.
@@ -208,15 +207,14 @@ class BlockJob(Job):
         grid = self.output.grid
         for cloud in self._clouds(work.store, progress.part(0.0, 0.5)):
             work.add(cloud)
-        results: dict[BlockIndex, list[object]] = defaultdict(list)
+        results: dict[BlockIndex, list[Mapping[str, Any]]] = defaultdict(list)
         done = work.done(share.resources, progress.part(0.5, 0.95), self._is_wanted)
-        for block, result in done or ():
-            results[grid.holding(block)].append(result)
+        for block, arrays in done or ():
+            results[grid.holding(block)].append(arrays)
         progress(1.0)  # ends a job of a run that was cancelled, before it writes
         # Results may still wait in the store.
         for place, file in self.output.files.items():
-            with replacing(file) as temporary, temporary.open("wb") as stream:
-                grid.step.save(results[place], stream)
+            write_arrays(file, results[place])
 
 
 @dataclass(frozen=True, eq=False)
@@ -251,7 +249,7 @@ class TileJob(Job):
         reading, resources = progress.part(0.3, 0.4).quiet(), share.resources
         with FilePoints.opened(las, self.target, resources, needs_records, reading) as points:
             result = TileResult.collected(points, values)
-            result.check(progress)
+            result.report(progress, is_alone=False)
             if result.is_empty:
                 return None
             result.write(self.target, progress.part(0.4, 1.0))

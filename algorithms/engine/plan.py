@@ -18,6 +18,7 @@ from ..core.errors import BareEarthError
 from ..core.progress import SILENT, Progress
 from ..las.cloud import survey_frame
 from ..las.lasfile import LasFile
+from ..survey.area import Area
 from ..survey.files import Survey
 from .block_grid import (
     BlockGrid,
@@ -39,7 +40,7 @@ from .manifest import (
     stamp_of,
 )
 from .results import Results
-from .step import PointStep
+from .step import Changes, PointStep
 from .summary import TileSummary
 from .unpacking import Unpacking
 from .values import BlockFiles
@@ -100,8 +101,10 @@ class Plan:
         has_sinks: bool = False,
     ) -> None:
         self.steps, self.folder, self._targets = steps, folder, targets
+        # Only points in the area of the first step get values, and those round it help.
+        self._area = steps[0].area
         # Whether sinks need results that the outputs do not have.
-        self._shows_more = has_sinks and any(step.shows_more for step in steps)
+        self._shows_more = has_sinks and self._area is not None
         frame = survey_frame(survey.crs)
         self.grids = [BlockGrid(frame, step, survey.stated) for step in steps]
         # Taken before any file is read.
@@ -113,18 +116,22 @@ class Plan:
         self.kept: list[TileSummary] = []  # of the outputs that an earlier run finished
         self.failures: dict[Path, str] = {}  # why files cannot be done
         # Files without a point to write, as their headers show.
-        self.empty = [tile for tile in survey.tiles if any(step.skips(tile) for step in steps)]
+        self.empty = [
+            tile
+            for tile in survey.tiles
+            if Changes.OUTSIDE in steps[0].changes and not self._is_near(tile, 0.0)
+        ]
         skipped = {tile.path for tile in self.empty}
         seen = [tile for tile in survey.tiles if tile.path not in skipped]
         # The points of the others take part only in the first step.
-        shown = (t for t in survey.tiles if t.path not in skipped or not self._is_far(t))
+        shown = (t for t in survey.tiles if t.path not in skipped or self._is_near(t))
         self.shown = dataclasses.replace(survey, tiles=tuple(shown))
         self.surveys = [survey, *[self.shown] * (len(steps) - 1)]
         self.todo: list[LasFile] = []  # the files that are to be done
         for number, tile in enumerate(seen, start=1):
             try:
                 for step in steps:
-                    step.check_tile(tile)
+                    step.check_file(tile)
                 self._inputs_of(tile)
                 self.todo.append(tile)
             except BareEarthError as error:
@@ -257,10 +264,18 @@ class Plan:
             return []
         others = {tile.path for tile in self.todo}.union(self.failures)
         tiles = (tile for tile in self.shown.tiles if tile.path not in others)
-        return [tile for tile in tiles if not self._is_far(tile)]
+        return [tile for tile in tiles if self._is_near(tile)]
 
-    def _is_far(self, tile: LasFile) -> bool:
-        return any(step.is_far(tile) for step in self.steps)
+    def _is_near(self, tile: LasFile, distance: float | None = None) -> bool:
+        """Return whether a file may have points in the area, or up to a distance in metres from it,
+        by default as far as points matter to the first step.
+        """
+        if self._area is None:
+            return True
+        grid = self.grids[0]
+        distance = grid.blocks.buffer if distance is None else distance
+        box = self._area.buffered_box(distance / grid.frame.horizontal_unit)
+        return Area(box).may_touch(tile.outer_box)
 
     def results(self, outputs: Survey, empty: Iterable[LasFile]) -> Results:
         """Return where to read the points that rasters are made from, given the files that were

@@ -15,15 +15,16 @@ from ..core.progress import SILENT, Progress
 from ..core.temporary import remove
 from ..las.cloud import survey_frame
 from ..survey.files import Survey
+from ..survey.shapes import outside
 from .block_grid import BlockGrid, BlockIndex, least_memory, places_of, sources_of
 from .job_queue import JobQueue
 from .jobs import BlockJob
 from .manifest import block_file, stamp_of
 from .plan import block_jobs
 from .results import Results
-from .step import Sink
+from .step import AROUND_AREA, Sink
 from .unpacking import Unpacking
-from .values import BlockFiles
+from .values import BlockFiles, arrays_in
 from .workers import Workers
 
 
@@ -44,12 +45,17 @@ def run_sink(
     # Results that a cancelled or killed run left there are used if nothing has changed.
     results = results or Results(survey)
     tiles, survey = survey.tiles, results.survey
-    frame = survey_frame(survey.crs, step.origin)
+    frame = survey_frame(survey.crs, step.blocks.origin)
     reading, progress = progress.part(0.0, 0.05), progress.part(0.05, 1.0)
     step = step.with_all_points(partial(results.parts, unpacking, reading), frame, reading)
     grid = BlockGrid(frame, step, survey.stated)
     places = sorted({place for tile in survey.tiles for place in places_of(grid, tile)})
-    sources = {place: sources_of(grid, survey, place) for place in step.wanted(places, grid)}
+    if step.area is not None:
+        box = step.area.buffered_box(AROUND_AREA / frame.horizontal_unit)
+        places = grid.among(places, box)
+        if not places:
+            raise outside("the area", step.area.bounds, "the files", survey.box)
+    sources = {place: sources_of(grid, survey, place) for place in places}
     stamps = {path: stamp_of(source) for path, source in results.read_from.items()}
     grids = [*(earlier.grid for earlier in results.earlier), grid]
     files = {
@@ -77,8 +83,9 @@ def run_sink(
         queue.work()
         if queue.lost:
             reason = next(iter(queue.lost.values()))
-            raise BareEarthError(f"The {step.title} cannot be made. {reason}")
-        of_blocks = [result for file in files.values() for result in step.load(file)]
+            names = ", ".join(path.name for _, path in step.outputs)
+            raise BareEarthError(f"{names} cannot be made. {reason}")
+        of_blocks = [arrays for file in files.values() for arrays in arrays_in(file)]
         with contextlib.ExitStack() as opened:
             outputs = outputs or opened.enter_context(Outputs())
             return step.finish(of_blocks, frame, outputs, progress.part(0.8, 1.0), tiles)

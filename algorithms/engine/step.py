@@ -3,58 +3,64 @@
 A step selects the points that it needs (`marks`) and the blocks in which it works (`blocks`), and
 computes a result for each block (`in_block`). It does not deal with files or threads, so it runs on
 one file or many, in memory, from disk, and in the jobs of a survey. The result is a value for each
-point (`PointStep`), or results of blocks from which outputs are made at the end (`Sink`).
+point (`PointStep`), or arrays of blocks from which outputs are made at the end (`Sink`).
 """
 
 from __future__ import annotations
 
 import dataclasses
+import enum
 import hashlib
 from collections import Counter
 from functools import cached_property
 from pathlib import Path
-from typing import Any, BinaryIO, Callable, ClassVar, Iterable, Sequence, TypeVar
+from typing import Any, Callable, ClassVar, Iterable, Mapping, Sequence, TypeVar
 
 import numpy as np
 
 from ..classes.corrections import to_remember
 from ..core.files import Outputs
 from ..core.parameters import ParameterSet
-from ..core.points import Box, Frame
+from ..core.points import Frame
 from ..core.progress import SILENT, Progress
 from ..las.cloud import PointCloud
 from ..las.edits import Edits
 from ..las.lasfile import LasFile
+from ..survey.area import Area
 from ..survey.shapes import Geometry, Place
-from .block_grid import BlockGrid, BlockIndex
-from .blocks import Blocks, PlaneBlock, Visit
-from .store import Marks, Store
+from .blocks import Blocks, Visit
+from .store import Marks
 from .summary import TileSummary
 
-# The calls in their order; * marks those of a survey of many files, + those of `PointStep`, and #
-# those of `Sink`. The properties `blocks`, `origin`, `outputs`, `weight`, `gives_classes`,
-# `only_classes` and `writes_all` are read before.
+# Everything that a step can declare or override. First data, which the engine reads at any time:
 #
-# call                 by               with, and what it gives
-# check_survey *       survey_run       the extent and all steps: refuses what cannot be done
-# skips, is_far *+     plan             the header of a file: whether it is left out
-# check_tile *+        plan             the header of a file: refuses it
-# placed               file_run, rows   CRS and extent: the step in that CRS
-# marks                visits.Work      each part of the points, as earlier steps left it: `Marks`
-# tell                 file_run         the counts of `marks`: reports, or refuses the file
-# with_all_points      file_run, sinks  a function that reads all points: the step with what follows
-# wanted *#            sinks            the blocks with points: those that are worked on
-# in_block             visits           a `Visit` of a block: its result
-# keep                 visits           the result of a block: what is not in the store
-# end                  visits           what `keep` gave for all blocks: the result of the step
-# save, load *#        jobs, sinks      the results of a block to a file, and from it
-# finish               file_run, sinks  the result: writes `outputs`, gives a summary
-# result +             file_points      a file: its `PointResult`
-#   applied, add       file_points      each part again, with its values: classes and counts
-#   check *, tell      file_points      report on the file
-#   kept, edits        file_points      which points are written, and what changes but classes
-#   summary            file_points      the numbers of points by class: the summary of the file
-# tell_of_survey *+    survey_run       the summaries of all files: reports on them
+# Step       kind, counts, imports   types of values and counters; modules that load slowly
+#            weight                  share of the progress
+#            blocks                  how the plane is cut, how far points matter, and the memory
+#            area                    where points get values, or rasters have data
+#            outputs                 kinds and paths of the files that it writes, apart from points
+# PointStep  changes                 what differs in the output
+#            summary_type            what a run returns for a file
+#
+# Then the calls in their order. Those with * are made for each of many files only.
+#
+# call                    by                  with what, and what it gives
+# Step.in_crs             file_run, survey_run   where the points lie: the step in their CRS
+# PointStep.check_file *  plan                the header of a file: refuses the file
+# Sink.with_all_points    file_run, sinks     reads all points: the step with what it needs of them
+# Step.marks              visits.Work         each part of the points, as earlier steps left it
+# Step.report_counts      file_run            what `marks` counted: reports, or refuses the file
+# Step.in_block           visits              a `Visit` of a block: values, or arrays
+# PointStep.report_blocks visits              the notes of all blocks: reports, or refuses them
+# Sink.finish             file_run, sinks     the arrays of all blocks: writes `outputs`
+# PointStep.result        file_points         a file: its `PointResult`
+#   PointResult.add       file_points         each part again, with its values: as it is written
+#   PointStep.applied     add, values         points with their values, as later steps see them
+#   PointStep.numbers     add                 points before and after: counts for the summary
+#   PointResult.report    file_points         reports on the file, or refuses it
+#   PointResult.edits     file_points         what changes in the file, except for classes
+#   PointResult.summary   file_points         the numbers of points by class: the summary
+# PointStep.report_survey * survey_run        the summaries of all files: reports, or refuses them
 
 _Step = TypeVar("_Step", bound="Step")
 
@@ -62,6 +68,18 @@ _Step = TypeVar("_Step", bound="Step")
 Allocate = Callable[[type], np.ndarray]
 # Reads all points part by part, with the results of earlier steps.
 ReadPoints = Callable[[], Iterable[PointCloud]]
+# Metres from the area of a sink up to which blocks are made as well, because the surroundings
+# decide which gaps lie inside the survey.
+AROUND_AREA = 1000.0
+
+
+class Changes(enum.Flag):
+    """What differs in an output from the input."""
+
+    NOTHING = 0
+    CLASSES = enum.auto()
+    MORE = enum.auto()  # other dimensions, or which points there are
+    OUTSIDE = enum.auto()  # points outside of the area are not written
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -71,7 +89,6 @@ class Step:
     kind: ClassVar[type] = np.uint8  # of the value that a store holds for each point
     counts: ClassVar[type]  # of the counters that `marks` adds to
     imports: ClassVar[tuple[str, ...]] = ()  # modules that the step needs and that load slowly
-    weight_of_outputs = 0.0  # in the progress, as a share of `weight`
 
     @property
     def weight(self) -> float:
@@ -79,19 +96,14 @@ class Step:
         return 3.0
 
     @property
-    def gives_classes(self) -> bool:
-        """Whether the step changes classes, so that later steps must see its result."""
-        return False
+    def changes(self) -> Changes:
+        """What differs in the output; later steps see the classes."""
+        return Changes.NOTHING
 
     @property
-    def writes_all(self) -> bool:
-        """Whether the output has all points."""
-        return True
-
-    @property
-    def reads_all_first(self) -> bool:
-        """Whether `with_all_points` reads them."""
-        return False
+    def area(self) -> Area | None:
+        """Where points get values, or rasters have data; None for everywhere."""
+        return None
 
     @property
     def outputs(self) -> list[tuple[str, Path]]:
@@ -99,62 +111,29 @@ class Step:
         return []
 
     @property
-    def origin(self) -> tuple[float, float]:
-        """The origin of the frame in which the step works, in units of the CRS."""
-        return 0.0, 0.0
-
-    @property
     def blocks(self) -> Blocks:
         """The blocks in which the step works."""
         raise NotImplementedError
 
-    def placed(self: _Step, place: Place, progress: Progress = SILENT) -> _Step:
-        """Return the step for points at a place."""
-        return self
+    @property
+    def gives_classes(self) -> bool:
+        """Whether the step changes classes, so that later steps must see its result."""
+        return Changes.CLASSES in self.changes
 
-    def check_survey(self, box: Box, steps: Sequence[Step]) -> None:
-        """Refuse, before any work, a survey of many files whose extent (in units of the CRS) is
-        unsuitable, or an output that these steps cannot make of many files.
-        """
-
-    def with_all_points(
-        self: _Step, read: ReadPoints, frame: Frame, progress: Progress = SILENT
-    ) -> _Step:
-        """Return the step with parameters that depend on all points, which `read` reads."""
+    def in_crs(self: _Step, place: Place, progress: Progress = SILENT) -> _Step:
+        """Return the step for points at a place, or refuse these."""
         return self
 
     def marks(self, part: PointCloud, counts: Any) -> Marks:
         """Return the flags of the points of a part and count them; refuse an unsuitable file."""
         raise NotImplementedError
 
-    def tell(self, counts: Any, path: Path, progress: Progress) -> None:
+    def report_counts(self, counts: Any, path: Path, progress: Progress) -> None:
         """Report the counts of a file, or refuse a file without points for the step."""
 
-    def in_block(self, visit: Visit, progress: Progress) -> object:
+    def in_block(self, visit: Visit, progress: Progress) -> Any:
         """Compute the result of a block."""
         raise NotImplementedError
-
-    def keep(self, store: Store, result: Any) -> object:
-        """Put the large part of the result of a block into the store, and return the rest."""
-        return result
-
-    def end(
-        self, store: Store, results: Sequence[tuple[PlaneBlock, Any]], progress: Progress
-    ) -> Any:
-        """Return the result of all blocks, given what `keep` returned for each."""
-        return results
-
-    def finish(
-        self,
-        result: Any,
-        frame: Frame,
-        outputs: Outputs,
-        progress: Progress,
-        tiles: Sequence[LasFile] | None = None,
-    ) -> Any:
-        """Write the files of the property `outputs`, given the result of `end`, and the files of a
-        survey; return a summary.
-        """
 
     @cached_property
     def settings(self) -> dict[str, object]:
@@ -162,12 +141,12 @@ class Step:
         return {"step": type(self).__name__, **_plain_fields(self)}
 
 
-def placed(steps: Sequence[_Step], place: Place, progress: Progress = SILENT) -> list[_Step]:
+def steps_in_crs(steps: Sequence[_Step], place: Place, progress: Progress = SILENT) -> list[_Step]:
     """Return steps for points at a place, with all lines and polygons in its CRS, each transformed
     once; errors are those of `Geometry.located` and of the steps.
     """
     transformed: dict[int, Geometry] = {}
-    placed_steps = []
+    changed_steps = []
     for step in steps:
         changed: dict[str, Any] = {}
         for name in (field.name for field in dataclasses.fields(step)):
@@ -177,52 +156,42 @@ def placed(steps: Sequence[_Step], place: Place, progress: Progress = SILENT) ->
                     transformed[id(value)] = value.located(place, progress)
                 changed[name] = transformed[id(value)]
         step = dataclasses.replace(step, **changed) if changed else step
-        placed_steps.append(step.placed(place, progress))
-    return placed_steps
+        changed_steps.append(step.in_crs(place, progress))
+    return changed_steps
 
 
 class PointStep(Step):
-    """Base of the steps that compute a value for each point, which is written into the file."""
+    """Base of the steps that compute a value for each point, which is written into the file.
+
+    `in_block` returns positions in the store, values, and perhaps notes for `report_blocks`.
+    """
 
     summary_type: type  # a frozen dataclass with `name`, `point_count` and `text`
 
     @property
-    def gives_classes(self) -> bool:
-        """Whether the step changes classes."""
-        return True
+    def changes(self) -> Changes:
+        """What differs in the output."""
+        return Changes.CLASSES
 
-    @property
-    def only_classes(self) -> bool:
-        """Whether the step changes only classes."""
-        return self.gives_classes
+    def check_file(self, file: LasFile) -> None:
+        """Refuse, before any work, a file that cannot hold the result."""
 
-    def keep(self, store: Store, result: Sequence[Any]) -> object:
-        """Store positions and values, the first two parts of the result of a block."""
-        positions, values, *more = result
-        store.put(positions, values)
-        return more
+    def report_blocks(self, notes: Sequence[Any], has_known: bool, progress: Progress) -> None:
+        """Report the notes of all blocks, and whether any point is known ground; or refuse them."""
 
     def applied(self, part: PointCloud, values: np.ndarray) -> PointCloud:
         """Return points with their values, as later steps see them and as they are written."""
         return part
 
-    def check_tile(self, tile: LasFile) -> None:
-        """Refuse, before any work, a file that cannot hold the result."""
+    def numbers(self, part: PointCloud, after: PointCloud, values: np.ndarray) -> dict[str, int]:
+        """Count points of a part, before and after, for fields of the summary."""
+        return {}
 
-    def skips(self, tile: LasFile) -> bool:
-        """Return whether the header of a file shows that none of its points is to be written."""
-        return False
+    def result(self, path: Path, allocate: Allocate) -> PointResult:
+        """Return an object that collects the values of a file."""
+        return PointResult(self)
 
-    @property
-    def shows_more(self) -> bool:
-        """Whether later steps see results that are not written."""
-        return False
-
-    def is_far(self, tile: LasFile) -> bool:
-        """Return whether the header of a file shows that none of its points gets a value."""
-        return self.skips(tile)
-
-    def tell_of_survey(
+    def report_survey(
         self, done: Sequence[Any], empty: Sequence[LasFile], progress: Progress
     ) -> None:
         """Report on all files together, given the summaries of those that were written, and those
@@ -233,31 +202,30 @@ class PointStep(Step):
                 f"{len(empty):,} files are not written: they have no points to write in the area."
             )
 
-    def numbers(self, part: PointCloud, after: PointCloud, values: np.ndarray) -> dict[str, int]:
-        """Count points of a part, before and after, for fields of the summary."""
-        return {}
-
-    def result(self, path: Path, allocate: Allocate) -> PointResult:
-        """Return an object that collects the values of a file."""
-        return PointResult(self)
-
 
 class Sink(Step):
-    """Base of the steps whose results of blocks go into files of their own, such as rasters."""
+    """Base of the steps whose results of blocks go into files of their own, such as rasters.
 
-    title = "outputs"  # what the step makes, for messages
-    weight_of_outputs = 0.25
+    `in_block` returns arrays by name; those of two dimensions wait where the points do.
+    """
 
-    def wanted(self, places: Sequence[BlockIndex], grid: BlockGrid) -> Sequence[BlockIndex]:
-        """Return the blocks that the outputs need, at least one."""
-        return places
+    def with_all_points(
+        self: _Step, read: ReadPoints, frame: Frame, progress: Progress = SILENT
+    ) -> _Step:
+        """Return the step with parameters that depend on all points, which `read` reads."""
+        return self
 
-    def save(self, results: Sequence[Any], stream: BinaryIO) -> None:
-        """Write the results of a block, or of its parts, for `load`."""
-        raise NotImplementedError
-
-    def load(self, file: Path) -> Iterable[Any]:
-        """Return the results that `save` wrote."""
+    def finish(
+        self,
+        results: Sequence[Mapping[str, Any]],
+        frame: Frame,
+        outputs: Outputs,
+        progress: Progress,
+        tiles: Sequence[LasFile] | None = None,
+    ) -> Any:
+        """Write the files of the property `outputs`, given the arrays of all blocks, and the files
+        of a survey; return a summary.
+        """
         raise NotImplementedError
 
 
@@ -266,33 +234,24 @@ class PointResult:
     which is enough for a step that changes only classes.
     """
 
-    kept: np.ndarray | None = None  # bool, (n,): which points are written; None for all
-
     def __init__(self, step: PointStep) -> None:
         self._step: Any = step
         self._numbers = Counter[str]()
 
-    @property
-    def is_empty(self) -> bool:
-        """Whether no point is to be written."""
-        return False
-
-    def applied(self, part: PointCloud, values: np.ndarray) -> PointCloud:
-        """Return the next points with their values, as `PointStep.applied` does."""
-        after: PointCloud = self._step.applied(part, values)
-        return after
-
-    def add(self, where: slice, before: PointCloud, after: PointCloud, values: np.ndarray) -> None:
-        """Add the values, shape (k,), of the points at `where` in the file, given as they were
-        before, and after `applied`.
+    def add(
+        self, where: slice, before: PointCloud, values: np.ndarray
+    ) -> tuple[PointCloud, np.ndarray | None]:
+        """Add the points at `where` in the file and their values, shape (k,); return the points as
+        `PointStep.applied` does, and which of them are written, None for all.
         """
+        after: PointCloud = self._step.applied(before, values)
         self._numbers.update(point_count=before.count, **self._step.numbers(before, after, values))
+        return after, None
 
-    def check(self, progress: Progress, why: str = "") -> None:
-        """Report on one of many files; `why` is the reason if parts of it have no ground."""
-
-    def tell(self, progress: Progress) -> None:
-        """Report what was found in a file."""
+    def report(self, progress: Progress, failure: str | None = None) -> None:
+        """Report on the only file of a run, or refuse it; or on one of many files, given why parts
+        of it have no ground.
+        """
 
     def edits(self, cloud: PointCloud, progress: Progress = SILENT) -> Edits:
         """Return the changes of the file other than classes, or refuse a file that cannot hold

@@ -22,6 +22,7 @@ from ..las.lasfile import LasFile
 from ..las.unpacked import has_room
 from ..las.writing import write_without_points
 from ..survey.files import Inputs, Survey, open_survey
+from ..survey.shapes import outside
 from ..survey.vpc import write_vpc
 from .execution import Execution
 from .job_queue import JobQueue
@@ -29,7 +30,7 @@ from .manifest import folders_of, remove_record
 from .plan import Plan
 from .results import Results
 from .sinks import run_sink
-from .step import PointStep, Sink, placed
+from .step import PointStep, Sink, steps_in_crs
 from .summary import SurveySummary
 from .targets import check_step_outputs, check_survey, targets_of
 from .unpacking import Unpacking
@@ -73,11 +74,12 @@ class ManyFiles(Execution):
             self._choose_targets(self.target)
             others = [self.vpc, *self._targets, *self._targets.values()]
         steps = sorted(self.steps, key=lambda step: not isinstance(step, PointStep))
-        steps = placed(steps, survey.place, self.progress)
+        steps = steps_in_crs(steps, survey.place, self.progress)
         self._point_steps = [step for step in steps if isinstance(step, PointStep)]
         self._sinks = [step for step in steps if isinstance(step, Sink)]
-        for step in steps:
-            step.check_survey(survey.box, steps)
+        for step in self._point_steps:
+            if step.area is not None and not step.area.may_touch(survey.box):
+                raise outside("the area", step.area.bounds, "the files", survey.box)
         outputs = [output for step in self._sinks for output in step.outputs]
         check_step_outputs(outputs, survey, others, self.target)
         self._inputs = {tile.path.name: tile.path for tile in survey.tiles}
@@ -165,7 +167,7 @@ class ManyFiles(Execution):
             self._failures[path.name] = path, reason
         if self._done or empty:
             try:
-                self._point_steps[0].tell_of_survey(self._done, empty, progress)
+                self._point_steps[0].report_survey(self._done, empty, progress)
             except BareEarthError:  # it refuses all files together
                 self._is_refused = True
                 for path in (folder / summary.name for summary in queue.done):

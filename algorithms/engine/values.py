@@ -6,6 +6,7 @@ Each step of a run sees the points with the values of the steps before it.
 from __future__ import annotations
 
 import os
+from collections import defaultdict
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Iterable, Iterator, Mapping, Sequence
@@ -88,6 +89,26 @@ class BlockFiles:
             content[_FAILURE] = np.frombuffer(failure.encode(), dtype=np.uint8)
         with replacing(self.files[place]) as temporary:
             np.savez(temporary, **content)
+
+
+def write_arrays(file: Path, parts: Sequence[Mapping[str, Any]]) -> None:
+    """Write the arrays of the parts of a block, which a sink has returned."""
+    content = {
+        f"{number}.{name}": array
+        for number, part in enumerate(parts)
+        for name, array in part.items()
+    }
+    with replacing(file) as temporary, temporary.open("wb") as stream:
+        np.savez(stream, **content)
+
+
+def arrays_in(file: Path) -> list[dict[str, Any]]:
+    """Return what `write_arrays` wrote; arrays of two dimensions stay in the file."""
+    parts: dict[str, dict[str, Any]] = defaultdict(dict)
+    for key, array in rows_in(file).items():
+        number, _, name = key.partition(".")
+        parts[number][name] = array if len(array.shape) == 2 else array[:]
+    return list(parts.values())
 
 
 class BlockValues(PointValues):

@@ -22,7 +22,7 @@ from .blocks import PlaneBlock, Visit
 from .blockwise import run_jobs
 from .memory import GIGABYTE, Cost, GivingBack, Resources, give_back
 from .memory_store import MemoryStore
-from .step import Step
+from .step import PointStep, Step
 from .store import Marks, Store
 
 # Bytes: blocks that take more give their memory back to the system when they are done.
@@ -104,8 +104,8 @@ def visited(
     progress: Progress,
     is_wanted: Callable[[PlaneBlock], bool] | None = None,
 ) -> list[Any]:
-    """Let steps work in their blocks, or only in the wanted ones; return what `Step.end` returns
-    for each step.
+    """Let steps work in their blocks, or only in the wanted ones; return for each step the blocks
+    with their arrays, or with the notes of a step that stores values.
     """
     alike = itertools.groupby(
         works, lambda work: (replace(work.step.blocks, cost=Cost()), work.store.frame)
@@ -150,21 +150,34 @@ def _visited(
     is_tight = sum(memory) > resources.bytes
     running = GivingBack(progress) if is_tight else progress
     jobs = [partial(_in_block, works, visits) for visits in todo.values()]
-    results: list[dict[PlaneBlock, object]] = [{} for _ in works]
+    results: list[dict[PlaneBlock, Any]] = [{} for _ in works]
     order = list(todo)
     for place, of_steps in run_jobs(jobs, counts, at_once, resources.thread_count, running):
         for number, result in of_steps.items():
             work = works[number]
-            results[number][order[place]] = work.step.keep(work.store, result)
+            results[number][order[place]] = _kept(work, result)
         if is_tight and memory[place] > _MUCH:
             give_back()
     # In the order of the blocks, not in the order in which they were done.
-    return [
-        work.step.end(
-            work.store, [(block, kept[block]) for block in order if block in kept], progress
-        )
-        for work, kept in zip(works, results)
+    sorted_results = [
+        [(block, kept[block]) for block in order if block in kept] for kept in results
     ]
+    for work, kept in zip(works, sorted_results):
+        if isinstance(work.step, PointStep):
+            notes = [note for _, of_block in kept for note in of_block]
+            work.step.report_blocks(notes, work.store.has_known, progress)
+    return sorted_results
+
+
+def _kept(work: Work, result: Any) -> Any:
+    """Put the values or the large arrays of a block into the store, and return the rest."""
+    if isinstance(work.step, PointStep):
+        positions, values, *notes = result
+        work.store.put(positions, values)
+        return notes
+    return {
+        name: work.store.keep(array) if array.ndim == 2 else array for name, array in result.items()
+    }
 
 
 def _in_block(

@@ -9,7 +9,7 @@ from dataclasses import dataclass, fields, replace
 from functools import cache, partial
 from pathlib import Path
 from types import SimpleNamespace
-from typing import Any, Callable, Sequence, cast
+from typing import Any, Callable, Mapping, Sequence, cast
 
 import numpy as np
 
@@ -148,7 +148,7 @@ class _RastersInMemory(MakeRasters):
 
     def finish(
         self,
-        result: Sequence[BlockRasters],
+        results: Sequence[Mapping[str, Any]],
         frame: Frame,
         outputs: Outputs,
         progress: Progress,
@@ -156,7 +156,8 @@ class _RastersInMemory(MakeRasters):
     ) -> Any:
         """Return the rasters by their names."""
         collected = Collected()
-        write_rasters(result, frame, self, outputs, progress, write_cells=collected.add)
+        blocks = [BlockRasters.of(arrays) for arrays in results]
+        write_rasters(blocks, frame, self, outputs, progress, write_cells=collected.add)
         return collected.rasters
 
 

@@ -22,7 +22,7 @@ from ..crs.system import Crs
 from ..engine.block_grid import BlockGrid, BlockIndex, code, places_of
 from ..engine.memory import Resources
 from ..engine.options import TileInput
-from ..engine.step import placed
+from ..engine.step import steps_in_crs
 from ..engine.visits import Work
 from ..las.cloud import PointCloud, survey_frame
 from ..las.lasfile import LasFile
@@ -182,7 +182,7 @@ def blocks_of(values: SimpleNamespace, sets: Sequence[ParameterSet]) -> list[Blo
         _check_same(name, crs_of_cloud, crs)
     require_measurable("The survey", crs, box)
     here = Place("the files", crs, box)
-    (step,) = placed([step], here, progress)
+    (step,) = steps_in_crs([step], here, progress)
     grid = BlockGrid(survey_frame(crs), step, stated)
     inside: dict[BlockIndex, list[_Source]] = {}
     for name, _, box, tile in clouds:

@@ -15,7 +15,7 @@ from ..core.points import Box, box_round
 from ..core.progress import SILENT
 from ..core.threads import SharedThreads
 from ..engine.block_grid import BlockGrid, BlockIndex
-from ..engine.step import placed
+from ..engine.step import AROUND_AREA, steps_in_crs
 from ..engine.visits import Work
 from ..grids.cell_window import CellWindow
 from ..las.cloud import PointCloud, survey_frame
@@ -23,7 +23,7 @@ from ..rasters.writing import Band
 from ..survey.area import Area
 from ..survey.shapes import Place
 from ..tools.rasters.block import BlockRasters
-from ..tools.rasters.output import AROUND_AREA, no_point_in, write_rasters
+from ..tools.rasters.output import no_point_in, write_rasters
 from ..tools.rasters.rows import RASTERS, How
 from ..tools.rasters.step import MakeRasters
 from .blocks import ONE_THREAD, Block, in_crs, indices, points_of, shared_by
@@ -42,8 +42,8 @@ def lazy_rasters(blocks: Sequence[Block], step: MakeRasters) -> dict[str, Raster
     array: Any = dask.array
     work, box = blocks[0].work, box_round(np.array([block.work.box for block in blocks]))
     place = Place("the files", work.crs, box)
-    (step,) = placed([step], place)
-    grid = BlockGrid(survey_frame(work.crs, step.origin), step, work.grid.stated)
+    (step,) = steps_in_crs([step], place)
+    grid = BlockGrid(survey_frame(work.crs, step.blocks.origin), step, work.grid.stated)
     window = _window_of(grid, box)
     how = How((step.cell, step.cell), step.model, step.surface)
     reach = step.cell * (1 + max(RASTERS[name].margin(how) for name in step.files.wanted))
@@ -120,7 +120,7 @@ def _layers_of(
             if cloud.count:
                 work.add(cloud)
         found = work.done(ONE_THREAD, is_wanted=lambda block: grid.holding(block) == index)
-    return [layers for _, layers in found or ()]
+    return [BlockRasters.of(arrays) for _, arrays in found or ()]
 
 
 def _cells_of(

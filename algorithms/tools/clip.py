@@ -5,20 +5,18 @@ from __future__ import annotations
 from collections import Counter
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any, Sequence
+from typing import Any
 
 import numpy as np
 
 from ..core.errors import BareEarthError
-from ..core.points import Box
 from ..core.progress import SILENT, Progress
 from ..engine.blocks import Blocks
-from ..engine.step import Allocate, PointResult, PointStep, Step
+from ..engine.step import Allocate, Changes, PointResult, PointStep
 from ..engine.store import Marks
 from ..engine.summary import TileSummary
 from ..las.cloud import PointCloud
 from ..las.edits import Edits
-from ..las.lasfile import LasFile
 from ..survey.area import Area
 from ..survey.shapes import Place, outside
 from .declaration import CLOUD, POINTS, TILES, Input, PointTool
@@ -47,8 +45,7 @@ class Clip(PointStep):
 
     counts = Counter
     blocks = Blocks.of(1.0)
-    gives_classes = False
-    writes_all = False
+    changes = Changes.MORE | Changes.OUTSIDE
     summary_type = ClipSummary
 
     @property
@@ -58,7 +55,7 @@ class Clip(PointStep):
             raise BareEarthError("Give an extent or a boundary: the points in it are written.")
         return self.area
 
-    def placed(self, place: Place, progress: Progress = SILENT) -> Clip:
+    def in_crs(self, place: Place, progress: Progress = SILENT) -> Clip:
         """Refuse to clip by no area, and polygons where the points are in degrees."""
         if self.wanted.polygons and place.crs.is_geographic:
             raise BareEarthError(
@@ -67,54 +64,33 @@ class Clip(PointStep):
             )
         return self
 
-    def check_survey(self, box: Box, steps: Sequence[Step]) -> None:
-        """Refuse an area that the survey does not touch."""
-        if not self.wanted.may_touch(box):
-            raise outside("the area", self.wanted.bounds, "the files", box)
-
-    def skips(self, tile: LasFile) -> bool:
-        """Return whether a file lies outside the area."""
-        return not self.wanted.may_touch(tile.outer_box)
-
     def marks(self, part: PointCloud, counts: Any) -> Marks:
         """Mark no point, since none needs others."""
         none = np.zeros(part.count, dtype=bool)
         return Marks(none, none, none)
 
     def result(self, path: Path, allocate: Allocate) -> ClippedPoints:
-        """Return an object that collects the points of a file in the area."""
-        return ClippedPoints(self, path, allocate)
+        """Return an object that finds the points of a file in the area."""
+        return ClippedPoints(self)
 
 
 class ClippedPoints(PointResult):
-    """Which points of a file are written; `allocate` returns an array, one value a point."""
+    """The points of a file that are written."""
 
-    def __init__(self, step: Clip, path: Path, allocate: Allocate) -> None:
-        super().__init__(step)
-        self.kept: np.ndarray = allocate(bool)
-        self._path, self._count = path, 0
-
-    def add(self, where: slice, before: PointCloud, after: PointCloud, values: np.ndarray) -> None:
-        """Find some points in the area."""
+    def add(
+        self, where: slice, before: PointCloud, values: np.ndarray
+    ) -> tuple[PointCloud, np.ndarray]:
+        """Return points, and which of them lie in the area."""
         inside = self._step.wanted.of(before)
-        self.kept[where] = inside
-        self._count += int(np.count_nonzero(inside))
-
-    @property
-    def is_empty(self) -> bool:
-        """Whether no point lies in the area."""
-        return not self._count
+        self._numbers.update(point_count=int(inside.sum()), input_count=before.count)
+        return before, inside
 
     def edits(self, cloud: PointCloud, progress: Progress = SILENT) -> Edits:
-        """Return which points are written; refuse a file with none in the area."""
-        if self.is_empty:
+        """Refuse a file without points in the area."""
+        if not self._numbers["point_count"]:
             box = cloud.box if cloud.file is None else cloud.file.outer_box
-            raise outside("the area", self._step.wanted.bounds, str(self._path), box)
-        return Edits(kept=self.kept)
-
-    def summary(self, name: str, class_counts: dict[int, int]) -> ClipSummary:
-        """Return the numbers of points."""
-        return ClipSummary(name, self._count, len(self.kept), class_counts)
+            raise outside("the area", self._step.wanted.bounds, str(cloud.path), box)
+        return Edits()
 
 
 TOOL = PointTool(

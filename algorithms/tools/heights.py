@@ -18,7 +18,7 @@ from ..core.progress import SILENT, Progress
 from ..crs.system import unit_name
 from ..engine.blocks import Blocks, Visit
 from ..engine.memory import Cost
-from ..engine.step import Allocate, PointResult, PointStep
+from ..engine.step import Allocate, Changes, PointResult, PointStep
 from ..engine.store import OTHERS, BlockPoints, Marks
 from ..engine.summary import TileSummary
 from ..las.cloud import PointCloud
@@ -97,7 +97,7 @@ class MeasureHeights(PointStep):
     kind = np.float64
     imports = ("scipy.spatial",)
     blocks = _BLOCKS
-    gives_classes = False
+    changes = Changes.MORE
     summary_type = HeightSummary
 
     def marks(self, part: PointCloud, counts: GroundCounts) -> Marks:
@@ -111,12 +111,12 @@ class MeasureHeights(PointStep):
         roads = self.ground.roads_of(part, self.roads)
         return Marks(every, self.ground.of(part, counts), inside, {ROADS_FLAG: roads})
 
-    def tell(self, counts: GroundCounts, path: Path, progress: Progress) -> None:
+    def report_counts(self, counts: GroundCounts, path: Path, progress: Progress) -> None:
         """Refuse a file without ground."""
         if self.dtm is None:
             self.ground.check(counts, path)
 
-    def tell_of_survey(
+    def report_survey(
         self, done: Sequence[HeightSummary], empty: Sequence[LasFile], progress: Progress
     ) -> None:
         """Warn of files without ground; refuse them if no file has any."""
@@ -125,12 +125,12 @@ class MeasureHeights(PointStep):
                 raise self.dtm.covers_nothing("the files")
         else:
             files = [(summary.ground_count, summary.without_ground) for summary in done]
-            self.ground.tell_of_survey(files, progress)
+            self.ground.report_survey(files, progress)
 
-    def check_tile(self, tile: LasFile) -> None:
+    def check_file(self, file: LasFile) -> None:
         """Refuse a file in another CRS than the raster."""
         if self.dtm is not None:
-            self.dtm.check(read_crs(tile), tile.path)
+            self.dtm.check(read_crs(file), file.path)
 
     def in_block(self, visit: Visit, progress: Progress) -> tuple[np.ndarray, np.ndarray]:
         """Return the positions of the wanted points of a block above the ground, and their heights
@@ -177,7 +177,7 @@ class HeightsOfPoints(PointResult):
         self._ground_count, self._unit, self._unknown_count = 0, 1.0, 0
         self._sampler = None if step.dtm is None else HeightSampler(step.dtm)
 
-    def add(self, where: slice, before: PointCloud, after: PointCloud, values: np.ndarray) -> None:
+    def add(self, where: slice, before: PointCloud, values: np.ndarray) -> tuple[PointCloud, None]:
         """Convert heights from metres to the vertical unit, without noise from rounding."""
         unit = before.crs.vertical_unit
         if self._sampler is not None:
@@ -191,11 +191,12 @@ class HeightsOfPoints(PointResult):
         self._unknown_count += int(np.count_nonzero(np.isnan(heights)))
         self._lowest = min(self._lowest, float(np.fmin.reduce(heights, initial=np.inf)))
         self._highest = max(self._highest, float(np.fmax.reduce(heights, initial=-np.inf)))
+        return before, None
 
-    def tell(self, progress: Progress) -> None:
-        """Refuse a raster that has no value at any point of one file."""
-        dtm = self._step.dtm
-        if dtm is not None and self._unknown_count == len(self.heights):
+    def report(self, progress: Progress, failure: str | None = None) -> None:
+        """Refuse a raster that has no value at any point of the only file."""
+        dtm, is_alone = self._step.dtm, failure is None
+        if dtm is not None and is_alone and self._unknown_count == len(self.heights):
             raise dtm.covers_nothing(str(self._path))
 
     def edits(self, cloud: PointCloud, progress: Progress = SILENT) -> Edits:

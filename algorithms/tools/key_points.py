@@ -13,7 +13,7 @@ from ..classes.without_ground import UNCHANGED, WithoutGround
 from ..core.parameters import ParameterSet, parameter
 from ..core.progress import SILENT, Progress
 from ..engine.blocks import Blocks, Visit
-from ..engine.step import Allocate, PointResult, PointStep, with_classes
+from ..engine.step import Allocate, Changes, PointResult, PointStep, with_classes
 from ..engine.store import Marks
 from ..engine.summary import TileSummary
 from ..las.cloud import PointCloud
@@ -91,22 +91,22 @@ class FindKeyPoints(PointStep):
         return Blocks.of(reach(self.parameters))
 
     @property
-    def gives_classes(self) -> bool:
-        """Whether key points get a class, and not a flag."""
-        return self.mark.mark_as == "class"
+    def changes(self) -> Changes:
+        """Key points get a class or a flag."""
+        return Changes.CLASSES if self.mark.mark_as == "class" else Changes.MORE
 
     def marks(self, part: PointCloud, counts: GroundCounts) -> Marks:
         """Return the ground points."""
-        self.check_tile(part)
+        self.check_file(part)
         also = (self.mark.key_class,) if self.gives_classes else ()
         ground = self.ground.of(part, counts, also)
         return Marks(ground, ground, ground)
 
-    def tell(self, counts: GroundCounts, path: Path, progress: Progress) -> None:
+    def report_counts(self, counts: GroundCounts, path: Path, progress: Progress) -> None:
         """Refuse a file without ground."""
         self.ground.check(counts, path)
 
-    def tell_of_survey(
+    def report_survey(
         self, done: Sequence[KeyPointSummary], empty: Sequence[LasFile], progress: Progress
     ) -> None:
         """Warn of files without ground; refuse them if no file has any."""
@@ -114,12 +114,12 @@ class FindKeyPoints(PointStep):
             (summary.ground_count, WithoutGround(summary.name, summary.point_count, UNCHANGED))
             for summary in done
         ]
-        self.ground.tell_of_survey(files, progress)
+        self.ground.report_survey(files, progress)
 
-    def check_tile(self, tile: LasFile | PointCloud) -> None:
+    def check_file(self, file: LasFile | PointCloud) -> None:
         """Refuse a file whose points cannot hold the class."""
         if self.gives_classes:
-            check_class(tile.path, tile.point_format, self.mark.key_class, "the key points")
+            check_class(file.path, file.point_format, self.mark.key_class, "the key points")
 
     def in_block(self, visit: Visit, progress: Progress) -> tuple[np.ndarray, np.ndarray]:
         """Return the positions of the ground points of a block, and `_KEY` or `_OTHER` for each."""
@@ -161,10 +161,12 @@ class _Flags(PointResult):
         super().__init__(step)
         self._flags = allocate(np.int8)
 
-    def add(self, where: slice, before: PointCloud, after: PointCloud, values: np.ndarray) -> None:
+    def add(
+        self, where: slice, before: PointCloud, values: np.ndarray
+    ) -> tuple[PointCloud, np.ndarray | None]:
         """Count some points, and set their flags."""
         self._flags[where] = np.select([values == _KEY, values == _OTHER], [1, 0], -1)
-        super().add(where, before, after, values)
+        return super().add(where, before, values)
 
     def edits(self, cloud: PointCloud, progress: Progress = SILENT) -> Edits:
         """Return the flags."""

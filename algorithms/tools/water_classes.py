@@ -154,16 +154,16 @@ class ClassifyWater(PointStep):
 
     def marks(self, part: PointCloud, counts: GroundCounts) -> Marks:
         """Count the ground points, and mark none, since no point needs others."""
-        self.check_tile(part)
+        self.check_file(part)
         self.ground.of(part, counts)
         none = np.zeros(part.count, dtype=bool)
         return Marks(none, none, none)
 
-    def tell(self, counts: GroundCounts, path: Path, progress: Progress) -> None:
+    def report_counts(self, counts: GroundCounts, path: Path, progress: Progress) -> None:
         """Refuse a file without ground."""
         self.ground.check(counts, path)
 
-    def tell_of_survey(
+    def report_survey(
         self, done: Sequence[WaterClassSummary], empty: Sequence[LasFile], progress: Progress
     ) -> None:
         """Warn of files without ground; refuse them if no file has any."""
@@ -171,13 +171,13 @@ class ClassifyWater(PointStep):
             (summary.was_ground_count, WithoutGround(summary.name, summary.point_count, UNCHANGED))
             for summary in done
         ]
-        self.ground.tell_of_survey(files, progress)
+        self.ground.report_survey(files, progress)
 
-    def check_tile(self, tile: LasFile | PointCloud) -> None:
+    def check_file(self, file: LasFile | PointCloud) -> None:
         """Refuse a file whose points cannot hold the classes."""
         how = self.parameters
         for value, use in ((how.water_class, "water"), (how.ignored_class, "ignored ground")):
-            check_class(tile.path, tile.point_format, value, use)
+            check_class(file.path, file.point_format, value, use)
 
     def applied(self, part: PointCloud, values: np.ndarray) -> PointCloud:
         """Return points with their classes; the values are not used."""

@@ -12,18 +12,16 @@ from ...classes.corrections import NO_CORRECTIONS, Corrections, changed_since
 from ...classes.ground_classes import ROADS_FLAG, GroundClasses, GroundCounts
 from ...classes.kept_classes import DECIDED, ROADS, is_one_of
 from ...classes.without_ground import UNCHANGED, WithoutGround
-from ...core.points import Box
 from ...core.progress import Progress
 from ...engine.blocks import Blocks, Visit
 from ...engine.memory import Cost
-from ...engine.step import PointStep, Step, with_classes
+from ...engine.step import PointStep, with_classes
 from ...engine.store import Marks
 from ...engine.summary import TileSummary
 from ...las.cloud import PointCloud
 from ...las.lasfile import LasFile
 from ...las.return_numbers import MULTI_RETURN, SeveralReturns
 from ...survey.area import Area
-from ...survey.shapes import outside
 from ...tin.height_above_ground import with_roads
 from ..declaration import CANOPY, CLOUD, Input, PointTool
 from .classes import AboveGround, classes_above_ground
@@ -82,23 +80,18 @@ class ClassifyAboveGround(PointStep):
         ground = self.ground.of(part, counts)
         roads = self.ground.roads_of(part, ROADS) & ~ground
         selected = ground | roads | self.ground.points_of(part, DECIDED)
-        wanted = selected & ~ground & self.changes(part)
+        wanted = selected & ~ground & self.can_change(part)
         flags = {ROADS_FLAG: roads, MULTI_RETURN: SeveralReturns(part)}
         return Marks(selected, ground, wanted, flags)
 
-    def changes(self, part: PointCloud) -> np.ndarray:
+    def can_change(self, part: PointCloud) -> np.ndarray:
         """Return which points can change: of certain classes, in the area, not set by hand."""
         changes = is_one_of(part.classification, self.parameters.changing) & ~changed_since(part)
         if self.corrections.polygons:
             changes &= self.corrections.classes_of(part) != part.classification
         return changes if self.area is None else changes & self.area.of(part)
 
-    def check_survey(self, box: Box, steps: Sequence[Step]) -> None:
-        """Refuse the survey if the area lies outside its extent."""
-        if self.area is not None and not self.area.may_touch(box):
-            raise outside("the area", self.area.bounds, "the files", box)
-
-    def tell(self, counts: GroundCounts, path: Path, progress: Progress) -> None:
+    def report_counts(self, counts: GroundCounts, path: Path, progress: Progress) -> None:
         """Refuse a file without ground; warn of a file in which no point can change."""
         self.ground.check(counts, path)
         if not counts.classes[list(self.parameters.changing)].any():
@@ -107,12 +100,12 @@ class ClassifyAboveGround(PointStep):
                 f" ({', '.join(map(str, self.parameters.changing))})."
             )
 
-    def tell_of_survey(
+    def report_survey(
         self, done: Sequence[AboveGroundSummary], empty: Sequence[LasFile], progress: Progress
     ) -> None:
         """Warn of files without ground; refuse them if no file has any."""
         files = [(summary.ground_count, summary.without_ground) for summary in done]
-        self.ground.tell_of_survey(files, progress)
+        self.ground.report_survey(files, progress)
 
     def in_block(self, visit: Visit, progress: Progress) -> tuple[np.ndarray, np.ndarray]:
         """Return the positions of the wanted points and their classes; 0 if there is no ground."""

@@ -105,7 +105,8 @@ class Window:
         step = LabelGround(setting.parameters)
         work = Work.in_memory(step, survey_frame(self.crs))
         selected = np.concatenate([work.add(cloud).selected for cloud in self.clouds])
-        step.tell(work.counts, self.clouds[0].path, progress if is_first else progress.quiet())
+        reporting = progress if is_first else progress.quiet()
+        step.report_counts(work.counts, self.clouds[0].path, reporting)
         progress.info(f"{setting.label}:")
         failure = work.failure(resources, progress)
         if failure:

@@ -16,21 +16,20 @@ from ...classes.point_counts import PointCounts, by_class
 from ...classes.selection import Selection
 from ...core.errors import BareEarthError
 from ...core.parameters import ParameterSet
-from ...core.points import Box
 from ...core.progress import SILENT, Progress
 from ...core.words import counted
-from ...engine.blocks import Blocks, PlaneBlock, Visit
-from ...engine.step import Allocate, PointResult, PointStep, Step, with_classes
-from ...engine.store import Marks, Store
+from ...engine.blocks import Blocks, Visit
+from ...engine.step import Allocate, Changes, PointResult, PointStep, with_classes
+from ...engine.store import Marks
 from ...filters import method_of
 from ...las.cloud import PointCloud
-from ...las.crs_records import read_crs
 from ...las.edits import Edits
 from ...las.lasfile import LasFile
 from ...las.return_numbers import MULTI_RETURN, SeveralReturns
 from ...survey.area import Area
 from .labelling import (
     TO_CONTINUE,
+    BlockMessages,
     Label,
     blocks_of,
     labelled,
@@ -71,9 +70,12 @@ class LabelGround(PointStep):
         return PointChooser(self.selection, self.area, reach, self.corrections)
 
     @property
-    def only_classes(self) -> bool:
-        """Whether the output differs only in its classes."""
-        return not (self.output.changes_points or self.selection.remember_classes)
+    def changes(self) -> Changes:
+        """Classes, and what the output has apart from these."""
+        changes = Changes.CLASSES
+        if self.output.changes_points or self.selection.remember_classes:
+            changes |= Changes.MORE
+        return changes | Changes.OUTSIDE if self.output.area_only else changes
 
     def marks(self, part: PointCloud, counts: PointCounts) -> Marks:
         """Return which points take part, are known ground, and get a label."""
@@ -102,48 +104,22 @@ class LabelGround(PointStep):
             part = dataclasses.replace(part, withheld=part.withheld | ~inside)
         return part
 
-    def tell(self, counts: PointCounts, path: Path, progress: Progress) -> None:
+    def report_counts(self, counts: PointCounts, path: Path, progress: Progress) -> None:
         """Report how many points take part; refuse a file without any."""
         self.chooser.tell(counts, path, progress)
 
-    def check_tile(self, tile: LasFile) -> None:
+    def check_file(self, file: LasFile) -> None:
         """Refuse a file whose points cannot hold the classes."""
-        self.chooser.check_classes(tile.path, tile.point_format)
+        self.chooser.check_classes(file.path, file.point_format)
 
-    @property
-    def shows_more(self) -> bool:
-        """Whether later steps see classes of points near the area that are not written."""
-        return self.area is not None
-
-    def is_far(self, tile: LasFile) -> bool:
-        """Return whether no point of a file lies near the area."""
-        box = self.chooser.box_near(read_crs(tile))
-        return box is not None and not Area(box).may_touch(tile.outer_box)
-
-    @property
-    def writes_all(self) -> bool:
-        """Whether all points are written, and not only the ground."""
-        return not self.output.ground_only
-
-    def check_survey(self, box: Box, steps: Sequence[Step]) -> None:
-        """Refuse a survey that the area does not touch."""
-        if self.area is not None and not self.area.may_touch(box):
-            raise self.chooser.no_point_in_area("the files", box)
-
-    def skips(self, tile: LasFile) -> bool:
-        """Return whether only the area is written and a file lies outside it."""
-        if self.area is None or not self.output.area_only:
-            return False
-        return not self.area.may_touch(tile.outer_box)
-
-    def tell_of_survey(
+    def report_survey(
         self, done: Sequence[Summary], empty: Sequence[LasFile], progress: Progress
     ) -> None:
         """Tell which files have no ground and which classes stay, and warn if no point lies in the
         area or in the corrections; refuse files if none has ground.
         """
         if self.output.area_only:
-            super().tell_of_survey(done, empty, progress)
+            super().report_survey(done, empty, progress)
             empty = ()
         tell_of_groundless_files(done, empty, self.area is not None, progress)
         counts = PointCounts(overlap=sum(summary.overlap_count for summary in done))
@@ -165,35 +141,31 @@ class LabelGround(PointStep):
         """Label the points of a block; see `labelled`."""
         return labelled(visit, self.parameters, self.selection, progress)
 
-    def end(
-        self, store: Store, results: Sequence[tuple[PlaneBlock, Any]], progress: Progress
+    def report_blocks(
+        self, notes: Sequence[BlockMessages], has_known: bool, progress: Progress
     ) -> None:
         """Report what was found in the blocks; refuse points without ground in any."""
         method = method_of(self.parameters)
-        if store.has_known and not method.takes_known_ground:
+        if has_known and not method.takes_known_ground:
             progress.info(
                 f"{method.label} does not start from known ground; it only keeps these"
                 " points as ground."
             )
-        tell(progress, [notes for _, (notes,) in results if notes.count])
+        tell(progress, [of_block for of_block in notes if of_block.count])
         if self.corrections.continues:
-            tell_of_continued(sum(notes.continued for _, (notes,) in results), progress)
+            tell_of_continued(sum(of_block.continued for of_block in notes), progress)
 
     def result(self, path: Path, allocate: Allocate) -> ClassifiedPoints:
         """Return an object that counts the classified points of a file."""
-        return ClassifiedPoints(self, path, allocate)
+        return ClassifiedPoints(self, path)
 
 
 class ClassifiedPoints(PointResult):
-    """The numbers of classified points of a file, in its area and in all, and which points are
-    written; `allocate` returns an array of one value for each point.
-    """
+    """The numbers of classified points of a file, in its area and in all."""
 
-    def __init__(self, step: LabelGround, path: Path, allocate: Allocate) -> None:
+    def __init__(self, step: LabelGround, path: Path) -> None:
         super().__init__(step)
-        self._path, self._counts, output = path, PointCounts(), step.output
-        # bool, (n,); None for all
-        self.kept = allocate(bool) if output.ground_only or output.area_only else None
+        self._path, self._counts = path, PointCounts()
         self._ground_count = 0  # with the class of the ground
         # in the area
         self._area_ground_count = self._by_hand_count = 0
@@ -201,22 +173,18 @@ class ClassifiedPoints(PointResult):
         self._has_ground, self._why = False, ""
         self._lifts = Lifts(step.corrections, step.selection.to_class)
 
-    def applied(self, part: PointCloud, values: np.ndarray) -> PointCloud:
-        """Return points with their new classes, and keep for `add` which lie in the area."""
-        chooser = self._step.chooser
-        # Kept, since searching points in polygons takes long.
-        self._inside, _, _ = chooser.choose(part, self._counts)
-        self._by_hand = chooser.by_hand(part)
-        return self._step.decided(part, values, self._inside, self._by_hand)
-
-    def add(self, where: slice, before: PointCloud, after: PointCloud, values: np.ndarray) -> None:
-        """Count some points, given their labels."""
-        inside, by_hand = self._inside, self._by_hand
+    def add(
+        self, where: slice, before: PointCloud, values: np.ndarray
+    ) -> tuple[PointCloud, np.ndarray | None]:
+        """Return points with their new classes, and which of them are written; count them."""
+        chooser, output = self._step.chooser, self._step.output
+        inside, _, _ = chooser.choose(before, self._counts)
+        by_hand = chooser.by_hand(before)
+        after = self._step.decided(before, values, inside, by_hand)
         ground = after.classification == self._step.selection.to_class
-        if self.kept is not None:
-            self.kept[where] = inside if self._step.output.area_only else True
-            if self._step.output.ground_only:
-                self.kept[where] &= ground
+        kept = inside if output.area_only else None
+        if output.ground_only:
+            kept = ground if kept is None else ground & inside
         self._lifts.see(after, ground)
         self._has_ground |= bool(((values == Label.GROUND) & inside).any())
         if by_hand is not None:
@@ -226,29 +194,21 @@ class ClassifiedPoints(PointResult):
         self._low_count += int(np.count_nonzero((values == Label.LOW) & inside))
         self._deck_count += int(np.count_nonzero((values == Label.BRIDGE) & inside))
         self._high_count += int(np.count_nonzero((values == Label.HIGH) & inside))
-
-    @property
-    def is_empty(self) -> bool:
-        """Whether no point is to be written."""
-        output = self._step.output
-        if output.ground_only:
-            return not self._written_ground_count
-        return output.area_only and not self._counts.inside
+        return after, kept
 
     @property
     def _written_ground_count(self) -> int:
         return self._area_ground_count if self._step.output.area_only else self._ground_count
 
-    def check(self, progress: Progress, why: str = "") -> None:
-        """Tell how many points of one of many files took part; keep why it has no ground."""
-        if self._counts.of_returns:
-            self._step.selection.tell(self._counts, self._path, progress)
-        self._why = why or self._counts.why_none
-
-    def tell(self, progress: Progress) -> None:
-        """Report the numbers of outliers and of points on bridges in the area, and what answers
-        lift; refuse one file without ground if only ground is written.
+    def report(self, progress: Progress, failure: str | None = None) -> None:
+        """Report on a file: how many points took part in one of many, what is neither ground nor
+        object in the only one; refuse that without ground if only ground is written.
         """
+        if failure is not None:
+            if self._counts.of_returns:
+                self._step.selection.tell(self._counts, self._path, progress)
+            self._why = failure or self._counts.why_none
+            return
         self._lifts.tell(progress)
         selection, output = self._step.selection, self._step.output
         if output.ground_only and not self._written_ground_count:
@@ -273,7 +233,7 @@ class ClassifiedPoints(PointResult):
             progress.info(f"{counted(self._deck_count, *words)} not ground.")
 
     def edits(self, cloud: PointCloud, progress: Progress = SILENT) -> Edits:
-        """Return which points are written."""
+        """Report how many points are left out of the output."""
         output, counts = self._step.output, self._counts
         count, ground = counts.points, self._written_ground_count
         if output.area_only:
@@ -283,7 +243,7 @@ class ClassifiedPoints(PointResult):
         if output.ground_only:
             words = "point that is not ground is", "points that are not ground are"
             progress.info(f"{counted(count - ground, *words)} left out of the output.")
-        return Edits(kept=self.kept)
+        return Edits()
 
     def summary(self, name: str, class_counts: dict[int, int]) -> Summary:
         """Return the numbers of points."""

@@ -41,6 +41,13 @@ def _steps(
     rasters = rasters_of(sets, inputs, outputs, ground, selection.roads)
     rasters = replace(rasters, covers_ground=written.ground_only and not rasters.needs_all)
     _check(written, area, above, rasters)
+    points = inputs.get("input")
+    if points is not None and points.is_survey and rasters.needs_all and written.ground_only:
+        # A run that goes on later makes them of what was written.
+        raise BareEarthError(
+            "The surface model, the canopy height and the expected error need all points."
+            " Write all points, not only the ground."
+        )
     steps: list[Step] = [LabelGround(_method(sets), selection, area, written, None, corrections)]
     if above.wanted:
         steps.append(ClassifyAboveGround(above, ground, area, corrections))

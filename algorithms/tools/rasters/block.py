@@ -26,6 +26,7 @@ CONTENTS = "contents"
 QUARTERS = 4
 ANY = 16
 TOP = 32
+_LOOSE = "loose "  # before the names of `BlockRasters.loose`
 # Rounding error of coordinates in metres.
 _ROUNDING = 1e-6
 _POINTS_SEEN = 1 << 16  # points whose arrays stay in the cache
@@ -43,6 +44,22 @@ class BlockRasters(NamedTuple):
     loose: Mapping[str, np.ndarray]
     box: np.ndarray  # float64, (4,): extent of the points in the block; NaN if it has none
     counts: np.ndarray  # int64, (2,): points of terrain and of surface in the block
+
+    @property
+    def arrays(self) -> dict[str, Any]:
+        """The arrays by name, as a run stores them."""
+        loose = {f"{_LOOSE}{name}": places for name, places in self.loose.items()}
+        window = np.array(self.window)
+        return {"window": window, "box": self.box, "counts": self.counts, **loose, **self.layers}
+
+    @classmethod
+    def of(cls, arrays: Mapping[str, Any]) -> BlockRasters:
+        """Return the layers of a block, given their arrays."""
+        layers = dict(arrays)
+        window, box, counts = (layers.pop(name) for name in ("window", "box", "counts"))
+        names = [name for name in layers if name.startswith(_LOOSE)]
+        loose = {name[len(_LOOSE) :]: np.asarray(layers.pop(name)) for name in names}
+        return cls(CellWindow(*window.tolist()), layers, loose, box, counts)
 
 
 @dataclass(frozen=True)

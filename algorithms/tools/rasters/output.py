@@ -15,6 +15,7 @@ from ...core.files import Outputs, new_folder
 from ...core.points import Box, Frame, box_in_words, box_round
 from ...core.progress import SILENT, Progress
 from ...core.words import option
+from ...engine.step import AROUND_AREA
 from ...engine.summary import RunSummary
 from ...grids.cell_window import CellWindow
 from ...grids.expected_error import ExpectedAccuracy
@@ -32,9 +33,6 @@ from .outlines import CellContents, Outlines, mosaics_of
 from .parameters import SurfaceModel, TerrainModel
 from .rows import RASTERS, How, RasterFiles, RasterRow
 
-# Metres from the area up to which cells are made as well, because the surroundings decide which
-# gaps lie inside the survey.
-AROUND_AREA = 1000.0
 # Writes a raster, given what `write_geotiff` is given.
 WriteCells = Callable[[Path, RasterCells, RasterGrid, float, Progress, str], None]
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any, BinaryIO, Iterator, Mapping, Sequence, TypeVar
+from typing import Any, Mapping, Sequence
 
 import numpy as np
 
@@ -13,16 +13,14 @@ from ...classes.kept_classes import BOTTOM, NOISE, SUBMERGED, WATER_SURFACES
 from ...classes.point_counts import count_classes
 from ...core.errors import BareEarthError
 from ...core.files import Outputs, split_name
-from ...core.points import Box, Frame
+from ...core.points import Frame
 from ...core.progress import SILENT, Progress
 from ...core.words import counted
 from ...crs.measurable import require_measurable
-from ...engine.block_grid import BlockGrid, BlockIndex
 from ...engine.blocks import Blocks, Visit
-from ...engine.disk_store import RowsOnDisk, rows_in
 from ...engine.memory import Cost
-from ...engine.step import ReadPoints, Sink, Step
-from ...engine.store import OTHERS, Marks, Store
+from ...engine.step import ReadPoints, Sink
+from ...engine.store import OTHERS, Marks
 from ...grids.cell_window import CellWindow
 from ...grids.cells import first_of_each
 from ...las.cloud import PointCloud, survey_frame
@@ -36,9 +34,8 @@ from .block import LAYERS, BlockRasters
 from .block_view import BlockView
 from .constraints import NO_CONSTRAINTS, Constraints
 from .fixed_terrain import fixed_terrain
-from .output import AROUND_AREA, RasterJob, RasterSize, no_point_in, write_rasters
+from .output import RasterJob, RasterSize, write_rasters
 
-_Array = TypeVar("_Array", np.ndarray, RowsOnDisk)
 # Points are thinned to one a cell unless there are more than ten cells a point,
 # of which hardly two would share one.
 _MOST_THINNED = 10
@@ -77,17 +74,11 @@ class MakeRasters(RasterJob, Sink):
 
     counts = RasterCounts
     imports = "scipy.ndimage", "scipy.spatial", *library_name()
-    title = "rasters"
 
     @property
     def weight(self) -> float:
         """Share of the progress, which grows with the number of rasters."""
         return 3.0 + len(self.files.wanted)
-
-    @property
-    def reads_all_first(self) -> bool:
-        """Whether all points are read to find the heights of the constraints."""
-        return self.constraints.any
 
     @property
     def outputs(self) -> list[tuple[str, Path]]:
@@ -109,12 +100,7 @@ class MakeRasters(RasterJob, Sink):
         """Whether any of the rasters needs the surface."""
         return not {"surface", "canopy"}.isdisjoint(self.files.layers)
 
-    @property
-    def origin(self) -> tuple[float, float]:
-        """The origin of the cells, in units of the CRS."""
-        return self.cells.origin
-
-    def placed(self, place: Place, progress: Progress = SILENT) -> MakeRasters:
+    def in_crs(self, place: Place, progress: Progress = SILENT) -> MakeRasters:
         """Return the step for points at a place; see `cell_grid`."""
         require_measurable(*place)
         usual = self.model.cells(place.crs.horizontal_unit)
@@ -131,21 +117,11 @@ class MakeRasters(RasterJob, Sink):
         fixed = fixed_terrain(self.constraints, read(), frame, self.ground, cell, progress)
         return replace(self, fixed=fixed)
 
-    def check_survey(self, box: Box, steps: Sequence[Step]) -> None:
-        """Refuse rasters that need points which are not written, since a run that goes on later
-        reads what was written.
-        """
-        if self.needs_all and not all(step.writes_all for step in steps):
-            raise BareEarthError(
-                "The surface model, the canopy height and the expected error need all points."
-                " Write all points, not only the ground."
-            )
-
     @property
     def blocks(self) -> Blocks:
-        """The blocks in which the rasters are made."""
+        """The blocks in which the rasters are made, from the origin of the cells."""
         cost = Cost(_BYTES_A_POINT, _BYTES_A_CELL / self.cell**2)
-        return Blocks.of(self.of_block.reach, cost)
+        return Blocks.of(self.of_block.reach, cost, self.cells.origin)
 
     def marks(self, part: PointCloud, counts: RasterCounts) -> Marks:
         """Return which points the rasters cover, which are ground, and which are of the surface."""
@@ -192,7 +168,7 @@ class MakeRasters(RasterJob, Sink):
         """Return one point of each cell that is shown."""
         indices = np.flatnonzero(shown)
         if len(indices):
-            x, y = part.places(indices, survey_frame(part.crs, self.origin))
+            x, y = part.places(indices, survey_frame(part.crs, self.cells.origin))
             cells = CellWindow.around((x.min(), y.min(), x.max(), y.max()), self.of_block.cell)
             cells = cells.wider(1)
             row, column = cells.places(x, y, (0.0, 0.0), self.of_block.cell)
@@ -205,7 +181,7 @@ class MakeRasters(RasterJob, Sink):
         kept[indices] = True
         return kept
 
-    def tell(self, counts: RasterCounts, path: Path, progress: Progress) -> None:
+    def report_counts(self, counts: RasterCounts, path: Path, progress: Progress) -> None:
         """Refuse a file without points for the rasters."""
         if self.needs_ground:
             self.ground.check(counts, path)
@@ -231,18 +207,8 @@ class MakeRasters(RasterJob, Sink):
                 f" {classes})."
             )
 
-    def wanted(self, places: Sequence[BlockIndex], grid: BlockGrid) -> Sequence[BlockIndex]:
-        """Return the blocks in the area and round it."""
-        if self.area is None:
-            return places
-        box = self.area.buffered_box(AROUND_AREA / grid.frame.horizontal_unit)
-        found = grid.among(places, box)
-        if not found:
-            raise no_point_in(self.area)
-        return found
-
-    def in_block(self, visit: Visit, progress: Progress) -> BlockRasters:
-        """Return the rasters of a block."""
+    def in_block(self, visit: Visit, progress: Progress) -> dict[str, Any]:
+        """Return the arrays of `BlockRasters`."""
         block, corner = visit.block, visit.corner
         # The ground that other steps see is the same, unless constraints change it.
         is_same = self.needs_ground and not self.constraints.any
@@ -257,37 +223,11 @@ class MakeRasters(RasterJob, Sink):
         view = BlockView(points, ground, contents.wanted, core, corner, None, known, lacks_ground)
         if self.fixed is not None and points.count:
             view = self.fixed.added_to(view)
-        return self.of_block.of(view, block.box, progress.part(0.2, 1.0))
-
-    def keep(self, store: Store, result: BlockRasters) -> BlockRasters:
-        """Let the layers wait where the points do."""
-        layers = {name: store.keep(cells) for name, cells in result.layers.items()}
-        return result._replace(layers=layers)
-
-    def save(self, results: Sequence[BlockRasters], stream: BinaryIO) -> None:
-        """Write the rasters of a block, or of its parts."""
-        content: dict[str, Any] = {}
-        for number, part in enumerate(results):
-            arrays = {"window": np.array(part.window), "box": part.box, "counts": part.counts}
-            arrays |= {f"loose.{name}": places for name, places in part.loose.items()}
-            arrays |= {f"layers.{name}": cells for name, cells in part.layers.items()}
-            content |= {f"{number}.{name}": array for name, array in arrays.items()}
-        np.savez(stream, count=len(results), **content)
-
-    def load(self, file: Path) -> Iterator[BlockRasters]:
-        """Yield the rasters that `save` wrote; their layers stay in the file."""
-        stays = rows_in(file)
-        with np.load(file, allow_pickle=False) as stored:
-            for number in range(int(stored["count"])):
-                window, box, counts = (
-                    stored[f"{number}.{name}"] for name in ("window", "box", "counts")
-                )
-                loose, layers = _of(stored, f"{number}.loose."), _of(stays, f"{number}.layers.")
-                yield BlockRasters(CellWindow(*window.tolist()), layers, loose, box, counts)
+        return self.of_block.of(view, block.box, progress.part(0.2, 1.0)).arrays
 
     def finish(
         self,
-        result: Sequence[BlockRasters],
+        results: Sequence[Mapping[str, Any]],
         frame: Frame,
         outputs: Outputs,
         progress: Progress,
@@ -297,9 +237,5 @@ class MakeRasters(RasterJob, Sink):
         files = None
         if self.per_file and tiles is not None:
             files = {split_name(tile.path)[0]: tile.box for tile in tiles}
-        return write_rasters(result, frame, self, outputs, progress, files)
-
-
-def _of(arrays: Mapping[str, _Array], start: str) -> dict[str, _Array]:
-    """Return the arrays whose names begin in one way, by the ends of these."""
-    return {name[len(start) :]: arrays[name] for name in arrays if name.startswith(start)}
+        blocks = [BlockRasters.of(arrays) for arrays in results]
+        return write_rasters(blocks, frame, self, outputs, progress, files)
