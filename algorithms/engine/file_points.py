@@ -29,7 +29,7 @@ from ..survey.shapes import Place
 from .disk_store import DiskStore, ValuesOnDisk
 from .memory import GIGABYTE, GivingBack, Resources
 from .memory_store import MemoryStore
-from .step import Changes, PointStep, Step
+from .step import CLASSES, PointStep, Step
 from .store import Store
 from .summary import TileSummary
 from .values import PointValues, numbered
@@ -203,7 +203,7 @@ def place_of(las: LasFile) -> Place:
 
 def copies_all_else(las: LasFile, target: Path, steps: Sequence[PointStep]) -> bool:
     """Return whether only the layers of classes are written, and all other bytes are copied."""
-    if remembers(las) or any(step.changes != Changes.CLASSES for step in steps):
+    if remembers(las) or any(step.changes != {CLASSES} for step in steps):
         return False
     return layers_kept(las, target) is not None
 

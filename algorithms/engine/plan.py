@@ -40,7 +40,7 @@ from .manifest import (
     stamp_of,
 )
 from .results import Results
-from .step import Changes, PointStep
+from .step import OUTSIDE, PointStep
 from .summary import TileSummary
 from .unpacking import Unpacking
 from .values import BlockFiles
@@ -119,7 +119,7 @@ class Plan:
         self.empty = [
             tile
             for tile in survey.tiles
-            if Changes.OUTSIDE in steps[0].changes and not self._is_near(tile, 0.0)
+            if OUTSIDE in steps[0].changes and not self._is_near(tile, 0.0)
         ]
         skipped = {tile.path for tile in self.empty}
         seen = [tile for tile in survey.tiles if tile.path not in skipped]

@@ -9,7 +9,6 @@ point (`PointStep`), or arrays of blocks from which outputs are made at the end 
 from __future__ import annotations
 
 import dataclasses
-import enum
 import hashlib
 from collections import Counter
 from functools import cached_property
@@ -32,35 +31,35 @@ from .blocks import Blocks, Visit
 from .store import Marks
 from .summary import TileSummary
 
-# Everything that a step can declare or override. First data, which the engine reads at any time:
+# What a step can declare or override, 25 things. First data, which the engine reads at any time:
 #
-# Step       kind, counts, imports   types of values and counters; modules that load slowly
-#            weight                  share of the progress
-#            blocks                  how the plane is cut, how far points matter, and the memory
-#            area                    where points get values, or rasters have data
-#            outputs                 kinds and paths of the files that it writes, apart from points
-# PointStep  changes                 what differs in the output
-#            summary_type            what a run returns for a file
+# Step       kind, counts, imports  types of values and counters; modules that load slowly
+#            weight                 share of the progress
+#            blocks                 how the plane is cut, how far points matter, and the memory
+#            area                   where points get values, or rasters have data
+# PointStep  changes                what differs in the output
+#            summary_type           what a run returns for a file
+# Sink       outputs                kinds and paths of the files that it writes
 #
-# Then the calls in their order. Those with * are made for each of many files only.
+# Then the calls in their order, with who calls, with what, and what each gives. Those with * are
+# made for each of many files, or once for all of them.
 #
-# call                    by                  with what, and what it gives
-# Step.in_crs             file_run, survey_run   where the points lie: the step in their CRS
-# PointStep.check_file *  plan                the header of a file: refuses the file
-# Sink.with_all_points    file_run, sinks     reads all points: the step with what it needs of them
-# Step.marks              visits.Work         each part of the points, as earlier steps left it
-# Step.report_counts      file_run            what `marks` counted: reports, or refuses the file
-# Step.in_block           visits              a `Visit` of a block: values, or arrays
-# PointStep.report_blocks visits              the notes of all blocks: reports, or refuses them
-# Sink.finish             file_run, sinks     the arrays of all blocks: writes `outputs`
-# PointStep.result        file_points         a file: its `PointResult`
-#   PointResult.add       file_points         each part again, with its values: as it is written
-#   PointStep.applied     add, values         points with their values, as later steps see them
-#   PointStep.numbers     add                 points before and after: counts for the summary
-#   PointResult.report    file_points         reports on the file, or refuses it
-#   PointResult.edits     file_points         what changes in the file, except for classes
-#   PointResult.summary   file_points         the numbers of points by class: the summary
-# PointStep.report_survey * survey_run        the summaries of all files: reports, or refuses them
+# Step.in_crs              file_run, survey_run  where the points lie: the step in their CRS
+# PointStep.check_file *   plan             the header of a file: refuses it
+# Sink.with_all_points     file_run, sinks  reads all points: the step with what it needs of them
+# Step.marks               visits.Work      each part of the points, as earlier steps left it
+# Step.report_counts       file_run         what `marks` counted: reports, or refuses the file
+# Step.in_block            visits           a `Visit` of a block: values, or arrays
+# PointStep.report_blocks  visits           the notes of all blocks: reports, or refuses these
+# Sink.finish              file_run, sinks  the arrays of all blocks: writes `outputs`
+# PointStep.result         file_points      a file: its `PointResult`
+#   PointResult.add        file_points      each part again, with its values: as it is written
+#   PointStep.applied      add, values      a part with its values, as later steps see it
+#   PointStep.numbers      add              a part before and after: counts for the summary
+#   PointResult.report     file_points      reports on the file, or refuses it
+#   PointResult.edits      file_points      what changes in the file apart from classes
+#   PointResult.summary    file_points      the numbers of points by class: the summary
+# PointStep.report_survey * survey_run      the summaries of all files: reports, or refuses these
 
 _Step = TypeVar("_Step", bound="Step")
 
@@ -72,14 +71,9 @@ ReadPoints = Callable[[], Iterable[PointCloud]]
 # decide which gaps lie inside the survey.
 AROUND_AREA = 1000.0
 
-
-class Changes(enum.Flag):
-    """What differs in an output from the input."""
-
-    NOTHING = 0
-    CLASSES = enum.auto()
-    MORE = enum.auto()  # other dimensions, or which points there are
-    OUTSIDE = enum.auto()  # points outside of the area are not written
+# What can differ in an output from the input: the classes, anything else, and whether there are
+# points outside of the area.
+CLASSES, MORE, OUTSIDE = "classes", "more", "outside"
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -96,9 +90,9 @@ class Step:
         return 3.0
 
     @property
-    def changes(self) -> Changes:
-        """What differs in the output; later steps see the classes."""
-        return Changes.NOTHING
+    def changes(self) -> frozenset[str]:
+        """What differs in the output, of `CLASSES`, `MORE` and `OUTSIDE`."""
+        return frozenset()
 
     @property
     def area(self) -> Area | None:
@@ -118,7 +112,7 @@ class Step:
     @property
     def gives_classes(self) -> bool:
         """Whether the step changes classes, so that later steps must see its result."""
-        return Changes.CLASSES in self.changes
+        return CLASSES in self.changes
 
     def in_crs(self: _Step, place: Place, progress: Progress = SILENT) -> _Step:
         """Return the step for points at a place, or refuse these."""
@@ -161,17 +155,16 @@ def steps_in_crs(steps: Sequence[_Step], place: Place, progress: Progress = SILE
 
 
 class PointStep(Step):
-    """Base of the steps that compute a value for each point, which is written into the file.
-
-    `in_block` returns positions in the store, values, and perhaps notes for `report_blocks`.
+    """Base of the steps whose `in_block` returns positions in the store and a value for each, which
+    is written into the file, and perhaps a note for `report_blocks`.
     """
 
     summary_type: type  # a frozen dataclass with `name`, `point_count` and `text`
 
     @property
-    def changes(self) -> Changes:
+    def changes(self) -> frozenset[str]:
         """What differs in the output."""
-        return Changes.CLASSES
+        return frozenset({CLASSES})
 
     def check_file(self, file: LasFile) -> None:
         """Refuse, before any work, a file that cannot hold the result."""
@@ -204,9 +197,8 @@ class PointStep(Step):
 
 
 class Sink(Step):
-    """Base of the steps whose results of blocks go into files of their own, such as rasters.
-
-    `in_block` returns arrays by name; those of two dimensions wait where the points do.
+    """Base of the steps whose `in_block` returns arrays by name, from which files such as rasters
+    are made at the end; arrays of two dimensions wait where the points do.
     """
 
     def with_all_points(

@@ -12,7 +12,7 @@ import numpy as np
 from ..core.errors import BareEarthError
 from ..core.progress import SILENT, Progress
 from ..engine.blocks import Blocks
-from ..engine.step import Allocate, Changes, PointResult, PointStep
+from ..engine.step import MORE, OUTSIDE, Allocate, PointResult, PointStep
 from ..engine.store import Marks
 from ..engine.summary import TileSummary
 from ..las.cloud import PointCloud
@@ -45,7 +45,7 @@ class Clip(PointStep):
 
     counts = Counter
     blocks = Blocks.of(1.0)
-    changes = Changes.MORE | Changes.OUTSIDE
+    changes = frozenset({MORE, OUTSIDE})
     summary_type = ClipSummary
 
     @property

@@ -18,7 +18,7 @@ from ..core.progress import SILENT, Progress
 from ..crs.system import unit_name
 from ..engine.blocks import Blocks, Visit
 from ..engine.memory import Cost
-from ..engine.step import Allocate, Changes, PointResult, PointStep
+from ..engine.step import MORE, Allocate, PointResult, PointStep
 from ..engine.store import OTHERS, BlockPoints, Marks
 from ..engine.summary import TileSummary
 from ..las.cloud import PointCloud
@@ -97,7 +97,7 @@ class MeasureHeights(PointStep):
     kind = np.float64
     imports = ("scipy.spatial",)
     blocks = _BLOCKS
-    changes = Changes.MORE
+    changes = frozenset({MORE})
     summary_type = HeightSummary
 
     def marks(self, part: PointCloud, counts: GroundCounts) -> Marks:

@@ -13,7 +13,7 @@ from ..classes.without_ground import UNCHANGED, WithoutGround
 from ..core.parameters import ParameterSet, parameter
 from ..core.progress import SILENT, Progress
 from ..engine.blocks import Blocks, Visit
-from ..engine.step import Allocate, Changes, PointResult, PointStep, with_classes
+from ..engine.step import CLASSES, MORE, Allocate, PointResult, PointStep, with_classes
 from ..engine.store import Marks
 from ..engine.summary import TileSummary
 from ..las.cloud import PointCloud
@@ -91,9 +91,9 @@ class FindKeyPoints(PointStep):
         return Blocks.of(reach(self.parameters))
 
     @property
-    def changes(self) -> Changes:
+    def changes(self) -> frozenset[str]:
         """Key points get a class or a flag."""
-        return Changes.CLASSES if self.mark.mark_as == "class" else Changes.MORE
+        return frozenset({CLASSES if self.mark.mark_as == "class" else MORE})
 
     def marks(self, part: PointCloud, counts: GroundCounts) -> Marks:
         """Return the ground points."""

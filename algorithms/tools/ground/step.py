@@ -19,7 +19,7 @@ from ...core.parameters import ParameterSet
 from ...core.progress import SILENT, Progress
 from ...core.words import counted
 from ...engine.blocks import Blocks, Visit
-from ...engine.step import Allocate, Changes, PointResult, PointStep, with_classes
+from ...engine.step import CLASSES, MORE, OUTSIDE, Allocate, PointResult, PointStep, with_classes
 from ...engine.store import Marks
 from ...filters import method_of
 from ...las.cloud import PointCloud
@@ -70,12 +70,14 @@ class LabelGround(PointStep):
         return PointChooser(self.selection, self.area, reach, self.corrections)
 
     @property
-    def changes(self) -> Changes:
-        """Classes, and what the output has apart from these."""
-        changes = Changes.CLASSES
+    def changes(self) -> frozenset[str]:
+        """What differs in the output."""
+        changes = {CLASSES}
         if self.output.changes_points or self.selection.remember_classes:
-            changes |= Changes.MORE
-        return changes | Changes.OUTSIDE if self.output.area_only else changes
+            changes.add(MORE)
+        if self.output.area_only:
+            changes.add(OUTSIDE)
+        return frozenset(changes)
 
     def marks(self, part: PointCloud, counts: PointCounts) -> Marks:
         """Return which points take part, are known ground, and get a label."""
