@@ -9,7 +9,6 @@ from bare_earth.algorithms.classes.selection import Selection
 from bare_earth.algorithms.core.parameters import ParameterSet
 from bare_earth.algorithms.core.progress import SILENT, Progress
 from bare_earth.algorithms.core.threads import may_use
-from bare_earth.algorithms.engine.file_points import FilePoints
 from bare_earth.algorithms.engine.file_run import OneFile
 from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.las.cloud import PointCloud
@@ -28,9 +27,8 @@ def classify_cloud(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Return the new class of every point, uint8 (n,), and which points in the area took part."""
     step = LabelGround(parameters, selection, area, corrections=corrections)
+    run = OneFile.on_cloud([step], cloud, resources, progress.part(0.0, 0.97))
     with may_use(resources.thread_count):
-        run = OneFile([step], resources, progress)
-        run.work_on(FilePoints(cloud, resources), progress.part(0.0, 0.97))
         result = run.result(progress.part(0.97, 1.0))
         inside, selected, _ = run.steps[0].chooser.choose(cloud, step.counts())
     return result.classification, selected & inside

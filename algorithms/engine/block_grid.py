@@ -97,6 +97,13 @@ class BlockGrid:
             codes[part] = code_of(row, column)
         return codes
 
+    def numbers(self, cloud: PointCloud, places: Iterable[BlockIndex]) -> np.ndarray:
+        """Return for each point the number of its block among some, from 1; 0 for other blocks."""
+        codes, numbers = self.codes(cloud), np.zeros(cloud.count, dtype=np.uint8)
+        for number, place in enumerate(places, start=1):
+            numbers[codes == code(place)] = number
+        return numbers
+
 
 def code(place: BlockIndex) -> int:
     """Return the number of a block, as in `BlockGrid.codes`."""

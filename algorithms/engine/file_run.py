@@ -17,7 +17,8 @@ from ..las.writing import write_without_points
 from ..survey.files import Inputs
 from .execution import Execution
 from .file_points import FilePoints, TileResult, copies_all_else, place_of
-from .step import PointStep, Sink, steps_in_crs
+from .memory import Resources
+from .step import PointStep, Sink, Step, steps_in_crs
 from .summary import RunSummary
 from .values import PointValues, with_values
 from .visits import Work, visited
@@ -95,6 +96,16 @@ class OneFile(Execution):
             part = progress.part(sum(weights[:start]) / total, sum(weights[:end]) / total)
             self._work_group(slice(start, end), part, outputs or Outputs())
             start = end
+
+    @classmethod
+    def on_cloud(
+        cls, steps: Sequence[Step], cloud: PointCloud, resources: Resources, progress: Progress
+    ) -> OneFile:
+        """Let steps work on points in memory; return the run, which has what they found."""
+        run = cls(steps, resources, progress)
+        with may_use(resources.thread_count):
+            run.work_on(FilePoints(cloud, resources), progress)
+        return run
 
     def _end_of_group(self, start: int) -> int:
         """Return the end of the group of steps that see the same classes, and share a reading."""

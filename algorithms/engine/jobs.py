@@ -15,25 +15,25 @@ from typing import Any, Iterator, Mapping, NamedTuple
 
 import numpy as np
 
-from ..core.errors import BareEarthError, Cancelled, NoGround
+from ..core.errors import BareEarthError, Cancelled
 from ..core.progress import Notes, Progress
 from ..core.threads import SharedThreads
 from ..las.cloud import PointCloud
 from ..las.lasfile import LasFile
 from ..las.opening import open_las
 from ..survey.window import may_touch, parts_in_window, read_window
-from .block_grid import BlockIndex, code, memory_of
-from .blocks import PlaneBlock
+from .block_grid import BlockIndex, memory_of
 from .disk_store import DiskStore
 from .file_points import FilePoints, TileResult, copies_all_else, memory_of_file
 from .manifest import Fingerprint, write_record
 from .memory import PeakMemory, Resources
+from .memory_store import MemoryStore
 from .step import Sink
 from .store import Store
 from .summary import JobCost, TileSummary
 from .unpacking import Unpacking
 from .values import BlockFiles, BlockValues, applied, write_arrays
-from .visits import Work
+from .visits import Work, values_of
 
 # The time of a point in a block, in proportion to that of reading and writing it.
 _BLOCK_WEIGHT = 2.0
@@ -149,72 +149,42 @@ class BlockJob(Job):
                 continue
             yield from (cloud for cloud in clouds if cloud.count)
 
-    @contextlib.contextmanager
-    def _work(self, share: Share) -> Iterator[Work]:
-        """Yield the step with an empty store, which is on disk if the points do not fit into
-        memory.
-        """
+    def _store(self, share: Share) -> contextlib.AbstractContextManager[Store]:
+        """Return an empty store, which is on disk if the points do not fit into memory."""
         grid, (file, *_) = self.output.grid, self.output.files.values()
         if memory_of(grid, self.count) <= share.resources.bytes:
-            yield Work.in_memory(grid.step, grid.frame)
-            return
-        with DiskStore(file, grid.frame, grid.blocks, grid.step.kind) as store:
-            yield Work(grid.step, store)
-
-    def _is_wanted(self, block: PlaneBlock) -> bool:
-        """Return whether a block, or the block that it is a part of, belongs to this job."""
-        return self.output.grid.holding(block) in self.output.files
+            return contextlib.nullcontext(MemoryStore(grid.frame, grid.blocks, grid.step.kind))
+        return DiskStore(file, grid.frame, grid.blocks, grid.step.kind)
 
     def run(self, share: Share, progress: Progress) -> None:
         """Let the step work, and write one file for each block."""
-        is_sink = isinstance(self.output.grid.step, Sink)
-        with self._work(share) as work:
-            (self._write_results if is_sink else self._write_values)(work, share, progress)
+        grid, places, working = self.output.grid, [*self.output.files], progress.part(0.3, 0.95)
+        with self._store(share) as store:
+            clouds = self._clouds(store, progress.part(0.0, 0.3))
+            work = values_of(grid, clouds, share.resources, working, places, store)
+            progress(1.0)  # ends a job of a run that was cancelled, before it writes
+            if isinstance(grid.step, Sink):
+                self._write_arrays(work)
+            else:
+                self._write_values(work)
 
-    def _write_values(self, work: Work, share: Share, progress: Progress) -> None:
-        """Compute a value for each point of the blocks, and write them by block and file."""
-        # The path of each part, and what `_numbers` returns for its points.
-        parts: list[tuple[Path, np.ndarray]] = []
-        for cloud in self._clouds(work.store, progress.part(0.0, 0.3)):
-            parts.append((cloud.path, self._numbers(cloud)))
-            work.add(cloud, wanted=parts[-1][1] > 0)
-        failure = work.failure(share.resources, progress.part(0.3, 0.95), self._is_wanted)
-        if failure is not None and not isinstance(failure, NoGround):
-            raise failure
-        progress(1.0)  # ends a job of a run that was cancelled, before it writes
+    def _write_values(self, work: Work) -> None:
+        """Write the values of the points of each block by file."""
         for number, place in enumerate(self.output.files, start=1):
-            counts: dict[Path, int] = defaultdict(int)
-            for path, blocks in parts:
-                counts[path] += int(np.count_nonzero(blocks == number))
-            kind = self.output.grid.step.kind
-            of_files = {path: np.zeros(count, dtype=kind) for path, count in counts.items()}
-            ends = dict.fromkeys(counts, 0)
-            for part, (path, blocks) in enumerate(() if failure else parts):
-                values = work.store.values(part)[blocks == number]
-                start, ends[path] = ends[path], ends[path] + len(values)
-                of_files[path][start : ends[path]] = values
-            self.output.write(place, of_files, str(failure or ""))
+            of_files: dict[Path, list[np.ndarray]] = defaultdict(list)
+            for part, (path, numbers) in enumerate(work.parts):
+                of_files[path].append(work.values(part)[numbers == number])
+            values = {path: np.concatenate(parts) for path, parts in of_files.items()}
+            self.output.write(place, values, str(work.failure or ""))
 
-    def _numbers(self, cloud: PointCloud) -> np.ndarray:
-        """Return for each point the number of its block in this job, from 1; 0 for other blocks."""
-        codes, numbers = self.output.grid.codes(cloud), np.zeros(cloud.count, dtype=np.uint8)
-        for number, place in enumerate(self.output.files, start=1):
-            numbers[codes == code(place)] = number
-        return numbers
-
-    def _write_results(self, work: Work, share: Share, progress: Progress) -> None:
-        """Compute and write the results of a sink."""
+    def _write_arrays(self, work: Work) -> None:
+        """Write the arrays of each block, some of which wait in the store."""
         grid = self.output.grid
-        for cloud in self._clouds(work.store, progress.part(0.0, 0.5)):
-            work.add(cloud)
-        results: dict[BlockIndex, list[Mapping[str, Any]]] = defaultdict(list)
-        done = work.done(share.resources, progress.part(0.5, 0.95), self._is_wanted)
-        for block, arrays in done or ():
-            results[grid.holding(block)].append(arrays)
-        progress(1.0)  # ends a job of a run that was cancelled, before it writes
-        # Results may still wait in the store.
+        of_blocks: dict[BlockIndex, list[Mapping[str, Any]]] = defaultdict(list)
+        for block, arrays in work.arrays:
+            of_blocks[grid.holding(block)].append(arrays)
         for place, file in self.output.files.items():
-            write_arrays(file, results[place])
+            write_arrays(file, of_blocks[place])
 
 
 @dataclass(frozen=True, eq=False)

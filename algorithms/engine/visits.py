@@ -10,20 +10,21 @@ import itertools
 from collections import defaultdict
 from dataclasses import replace
 from functools import partial
-from typing import Any, Callable, Hashable, Sequence
+from pathlib import Path
+from typing import Any, Callable, Hashable, Iterable, Sequence
 
 import numpy as np
 
-from ..core.errors import BareEarthError
-from ..core.points import Frame
+from ..core.errors import NoGround
 from ..core.progress import SILENT, Progress
 from ..las.cloud import PointCloud
+from .block_grid import BlockGrid, BlockIndex
 from .blocks import PlaneBlock, Visit
 from .blockwise import run_jobs
 from .memory import GIGABYTE, Cost, GivingBack, Resources, give_back
 from .memory_store import MemoryStore
 from .step import PointStep, Step
-from .store import Marks, Store
+from .store import Store
 
 # Bytes: blocks that take more give their memory back to the system when they are done.
 _MUCH = 100_000_000
@@ -33,26 +34,25 @@ _BYTES_KEPT = 70
 
 
 class Work:
-    """A step, and a store with the points that it needs."""
+    """A step, a store with the points that it needs, and what it found."""
 
     def __init__(self, step: Step, store: Store) -> None:
         self.step, self.store = step, store
         self.counts = step.counts()  # what the step has counted among the points
         self.has_points = False  # whether any point that gets a value takes part
-
-    @classmethod
-    def in_memory(cls, step: Step, frame: Frame) -> Work:
-        """Return a step with an empty store in memory."""
-        return cls(step, MemoryStore(frame, step.blocks, step.kind))
+        # For each part that `values_of` adds, the file, and which of its blocks hold the points.
+        self.parts: list[tuple[Path, np.ndarray]] = []
+        self.arrays: list[tuple[PlaneBlock, Any]] = []  # that a sink has found, by block
+        self.failure: NoGround | None = None  # why a point step has no values
 
     def add(
         self,
         part: PointCloud,
         stored: PointCloud | None = None,
         wanted: np.ndarray | None = None,
-    ) -> Marks:
-        """Add the points of the next part that the step needs to the store, and return the marks of
-        the part; `stored` is the same part with less memory, and only `wanted` points get a value.
+    ) -> None:
+        """Add the points of the next part that the step needs to the store; `stored` is the same
+        part with less memory, and only `wanted` points get a value.
         """
         marks = self.step.marks(part, self.counts)
         if wanted is not None:
@@ -61,41 +61,47 @@ class Work:
         taking_part = marks.selected if wanted is None else marks.selected & wanted
         self.has_points = self.has_points or bool(taking_part.any())
         self.store.append(part if stored is None else stored, marks)
-        return marks
 
-    def done(
-        self,
-        resources: Resources,
-        progress: Progress = SILENT,
-        is_wanted: Callable[[PlaneBlock], bool] | None = None,
-    ) -> Any:
-        """Let the step work as `visited` does, after all points were added; return its result, or
-        None if no point takes part.
-        """
-        self.store.finish(progress.part(0.0, 0.1))
-        return self._result(resources, progress.part(0.1, 1.0), is_wanted)
+    def values(self, number: int) -> np.ndarray:
+        """Return the values of all points of a part; 0 where there is none."""
+        values = self.store.values(number)
+        return values if self.failure is None else np.zeros_like(values)
 
-    def failure(
-        self,
-        resources: Resources,
-        progress: Progress = SILENT,
-        is_wanted: Callable[[PlaneBlock], bool] | None = None,
-    ) -> BareEarthError | None:
-        """Let the step work as `done` does; return the error that ended it, if any."""
-        self.store.finish(progress.part(0.0, 0.1))
-        try:
-            self._result(resources, progress.part(0.1, 1.0), is_wanted)
-        except BareEarthError as error:
-            return error
-        return None
 
-    def _result(
-        self,
-        resources: Resources,
-        progress: Progress,
-        is_wanted: Callable[[PlaneBlock], bool] | None,
-    ) -> Any:
-        return visited([self], resources, progress, is_wanted)[0] if self.has_points else None
+def values_of(
+    grid: BlockGrid,
+    clouds: Iterable[PointCloud],
+    resources: Resources,
+    progress: Progress = SILENT,
+    places: Sequence[BlockIndex] | None = None,
+    store: Store | None = None,
+) -> Work:
+    """Let the step of a grid work on points, in all of its blocks or in those at some places, and
+    return what it found; `Work.parts` have the numbers of the places of points, from 1 on.
+    """
+    step, is_wanted = grid.step, None
+    work = Work(step, store or MemoryStore(grid.frame, grid.blocks, step.kind))
+    for cloud in clouds:
+        wanted = None
+        if places is not None and isinstance(step, PointStep):
+            work.parts.append((cloud.path, grid.numbers(cloud, places)))
+            wanted = work.parts[-1][1] > 0
+        work.add(cloud, wanted=wanted)
+    work.store.finish(progress.part(0.0, 0.1))
+    if places is not None:
+        is_wanted = partial(_is_at, grid, places)
+    if not work.has_points:
+        return work
+    try:
+        (work.arrays,) = visited([work], resources, progress.part(0.1, 1.0), is_wanted)
+    except NoGround as failure:
+        work.failure = failure
+    return work
+
+
+def _is_at(grid: BlockGrid, places: Sequence[BlockIndex], block: PlaneBlock) -> bool:
+    """Return whether a block is at one of some places, or a part of a block there."""
+    return grid.holding(block) in places
 
 
 def visited(

@@ -165,6 +165,12 @@ class PointCloud:
         (west, south), (right, top) = self.lowest, self.highest
         return west * east + x0, south * north + y0, right * east + x0, top * north + y0
 
+    @property
+    def outer_box(self) -> Box:
+        """The box, wider by one step of the coordinates, as that of a file with these points."""
+        (west, south, east, north), (x, y) = self.box, self.scale[:2]
+        return west - x, south - y, east + x, north + y
+
     def bounds(self, frame: Frame) -> tuple[float, float, float, float]:
         """Return smallest x and y, largest x and y in metres of a frame, as in `points`."""
         corners = np.empty((2, 2))

@@ -64,11 +64,19 @@ def read_cloud(
 
 
 def read_parts(
-    path: Path | LasFile, progress: Progress = SILENT, strips: bool = False, times: bool = False
+    path: Path | LasFile | PointCloud,
+    progress: Progress = SILENT,
+    strips: bool = False,
+    times: bool = False,
 ) -> Iterator[PointCloud]:
-    """Yield the points of a file in file order, in the same parts each time; with strips, the flag
-    of synthetic points is read as well.
+    """Yield the points of a file, or of a cloud in memory, in their order, in the same parts each
+    time; with strips, the flag of synthetic points is read as well.
     """
+    if isinstance(path, PointCloud):
+        for where, part in path.parts():
+            yield part
+            progress(where.stop / path.count)
+        return
     layout = open_las(path)
     require_packages(layout)
     crs, start = read_crs(layout, progress), 0

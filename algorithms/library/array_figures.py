@@ -3,17 +3,13 @@
 from __future__ import annotations
 
 from types import SimpleNamespace
-from typing import Any, Iterator, Sequence
+from typing import Sequence
 
-import numpy as np
-
-from ..classes.ground_classes import GroundClasses, GroundCounts
+from ..classes.ground_classes import GroundClasses
 from ..core.errors import BareEarthError
 from ..core.parameters import ParameterSet
-from ..core.progress import Progress
 from ..core.threads import available_cpus, may_use
-from ..las.cloud import PointCloud
-from ..survey.pieces import pieces_of
+from ..survey.files import Survey
 from ..tools import file_tool
 from ..tools.check.accuracy import Accuracy
 from ..tools.check.checking import CheckInputs, CheckOptions, check_points
@@ -31,39 +27,11 @@ from .given import checkpoints_of, progress_of
 from .points import cloud_with_ground
 
 
-class _CloudGround(SurveyGround):
-    """The ground points of a cloud in memory."""
-
-    def __init__(self, cloud: PointCloud, ground: GroundClasses) -> None:
-        # The box is that of a file with these points, so that cells begin at the same places.
-        (west, south, east, north), (x, y) = cloud.box, cloud.scale[:2]
-        box = west - x, south - y, east + x, north + y
-        tile: Any = SimpleNamespace(
-            path=cloud.path, count=cloud.count, outer_box=box, scale=cloud.scale
-        )
-        pieces = pieces_of(
-            (tile,), cloud.crs.horizontal_unit, read=lambda *_: (part for _, part in cloud.parts())
-        )
-        survey: Any = SimpleNamespace(
-            crs=cloud.crs, tiles=(tile,), box=box, count=cloud.count, pieces=pieces
-        )
-        super().__init__(survey, ground)
-        self._cloud = cloud
-
-    def parts(
-        self, progress: Progress, near: np.ndarray | None = None, reach: float = 0.0
-    ) -> Iterator[tuple[PointCloud, np.ndarray]]:
-        """Yield the points in parts, and which of them are ground."""
-        self.counts = GroundCounts()
-        for where, part in self._cloud.parts():
-            yield part, self.ground.of(part, self.counts)
-            progress(where.stop / self._cloud.count)
-
-
-def _ground_points(values: SimpleNamespace, sets: Sequence[ParameterSet]) -> _CloudGround:
+def _ground_points(values: SimpleNamespace, sets: Sequence[ParameterSet]) -> SurveyGround:
     """Return the ground points in the arguments of a function."""
-    cloud = cloud_with_ground(values, GroundClasses.among(sets), progress_of(values.progress))
-    return _CloudGround(cloud, GroundClasses.among(sets))
+    ground = GroundClasses.among(sets)
+    cloud = cloud_with_ground(values, ground, progress_of(values.progress))
+    return SurveyGround(Survey.of_cloud(cloud), ground)
 
 
 def _check(values: SimpleNamespace, sets: Sequence[ParameterSet]) -> Check:

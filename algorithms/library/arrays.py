@@ -21,7 +21,7 @@ from ..core.parameters import ParameterSet, parameter_of
 from ..core.points import Frame
 from ..core.progress import Progress
 from ..core.threads import may_use
-from ..engine.file_points import FilePoints, TileResult
+from ..engine.file_points import TileResult
 from ..engine.file_run import OneFile
 from ..engine.memory import Resources
 from ..engine.options import TileInput
@@ -78,9 +78,8 @@ def _found(
     cloud: PointCloud, steps: Sequence[Step], resources: Resources, progress: Progress
 ) -> TileResult:
     """Return what steps find for points."""
+    run = OneFile.on_cloud(steps, cloud, resources, progress.part(0.0, 0.95))
     with may_use(resources.thread_count):
-        run = OneFile(steps, resources, progress)
-        run.work_on(FilePoints(cloud, resources), progress.part(0.0, 0.95))
         return run.result(progress.part(0.95, 1.0))
 
 
@@ -182,10 +181,7 @@ def _terrain(values: SimpleNamespace, sets: Sequence[ParameterSet]) -> dict[str,
         return _terrain_of_blocks(values, made)
     step = _RastersInMemory(**{item.name: getattr(made, item.name) for item in fields(made)})
     cloud = cloud_with_ground(values, GroundClasses.among(sets), progress)
-    resources = Resources.among(sets).now()
-    with may_use(resources.thread_count):
-        run = OneFile([step], resources, progress)
-        run.work_on(FilePoints(cloud, resources), progress)
+    run = OneFile.on_cloud([step], cloud, Resources.among(sets).now(), progress)
     (rasters,) = run.step_summaries
     return {name: rasters[name] for name in names}
 

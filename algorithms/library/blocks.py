@@ -19,11 +19,11 @@ from ..crs.matching import described, is_same_crs
 from ..crs.measurable import require_measurable
 from ..crs.stated import how_to_state, stated_wkt
 from ..crs.system import Crs
-from ..engine.block_grid import BlockGrid, BlockIndex, code, places_of
+from ..engine.block_grid import BlockGrid, BlockIndex, places_of
 from ..engine.memory import Resources
 from ..engine.options import TileInput
 from ..engine.step import steps_in_crs
-from ..engine.visits import Work
+from ..engine.visits import values_of
 from ..las.cloud import PointCloud, survey_frame
 from ..las.lasfile import LasFile
 from ..las.opening import open_las
@@ -269,32 +269,23 @@ def points_of(
     """Return the points in a block with their classes, those of each file as one cloud, with the
     place of the file among the sources of the block.
     """
-    work = block.work
-    clouds_with_masks: list[tuple[PointCloud, np.ndarray]] = []
-    grid, number = work.grid, code(work.place)
-    read = progress.part(0.0, 1.0 if work.is_classified else 0.3)
-    sources: list[int] = []
-    clouds = _read(block, read, sources, numbers)
-    if work.is_classified:
-        inner = (cloud.take(np.flatnonzero(grid.codes(cloud) == number)) for cloud in clouds)
-        return [(sources[place], cloud) for place, cloud in enumerate(inner)]
-    working = Work.in_memory(grid.step, grid.frame)
+    grid, places = block.work.grid, [block.work.place]
+    if block.work.is_classified:
+        return [
+            (source, cloud.take(np.flatnonzero(grid.numbers(cloud, places))))
+            for source, cloud in _read(block, progress, numbers)
+        ]
     with SharedThreads(1).used():
-        for cloud in clouds:
-            is_inside = grid.codes(cloud) == number
-            clouds_with_masks.append((cloud, is_inside))
-            working.add(cloud, wanted=is_inside)
-        failure = working.failure(
-            ONE_THREAD, progress.part(0.3, 1.0), lambda block: grid.holding(block) == work.place
-        )
-    if failure:
-        progress.warning(str(failure))
+        read = list(_read(block, progress.part(0.0, 0.3), numbers))
+        clouds = [cloud for _, cloud in read]
+        work = values_of(grid, clouds, ONE_THREAD, progress.part(0.3, 1.0), places)
+    if work.failure:
+        progress.warning(str(work.failure))
     classified = []
-    for place, (cloud, is_inside) in enumerate(clouds_with_masks):
-        inside = np.flatnonzero(is_inside)
-        values = working.store.values(place)[inside]
-        values = np.zeros_like(values) if failure else values
-        classified.append((sources[place], grid.step.applied(cloud.take(inside), values)))
+    for part, (source, cloud) in enumerate(read):
+        inside = np.flatnonzero(work.parts[part][1])
+        inner = grid.step.applied(cloud.take(inside), work.values(part)[inside])
+        classified.append((source, inner))
     return classified
 
 
@@ -317,10 +308,8 @@ def _files_of(block: Block, progress: Progress) -> dict[int, Path]:
     return files
 
 
-def _read(
-    block: Block, progress: Progress, sources: list[int], numbers: bool
-) -> Iterator[PointCloud]:
-    """Yield the points of each file in the window of a block, and add its number to `sources`."""
+def _read(block: Block, progress: Progress, numbers: bool) -> Iterator[tuple[int, PointCloud]]:
+    """Yield the number of each source, and its points in the window of a block."""
     work, files = block.work, _files_of(block, progress.quiet())
     for (number, path), part in zip(files.items(), progress.shares(*[1.0] * len(files))):
         las = open_las(path, work.grid.stated)
@@ -331,5 +320,4 @@ def _read(
             # The CRS that a list of files states can be wrong.
             _check_same(block.sources[number], cloud.crs, work.crs)
         if cloud.count:
-            sources.append(number)
-            yield cloud
+            yield number, cloud

@@ -16,7 +16,7 @@ from ..core.progress import SILENT
 from ..core.threads import SharedThreads
 from ..engine.block_grid import BlockGrid, BlockIndex
 from ..engine.step import AROUND_AREA, steps_in_crs
-from ..engine.visits import Work
+from ..engine.visits import values_of
 from ..grids.cell_window import CellWindow
 from ..las.cloud import PointCloud, survey_frame
 from ..rasters.writing import Band
@@ -114,13 +114,10 @@ def _layers_of(
     """Return the layers of a block, or of its parts, given the points of blocks round it."""
     area = Area(grid.window([index]))
     near = (cloud.take(np.flatnonzero(area.of(cloud))) for _, cloud in chain(*points))
-    work = Work.in_memory(grid.step, grid.frame)
     with SharedThreads(1).used():
-        for cloud in near:
-            if cloud.count:
-                work.add(cloud)
-        found = work.done(ONE_THREAD, is_wanted=lambda block: grid.holding(block) == index)
-    return [BlockRasters.of(arrays) for _, arrays in found or ()]
+        clouds = (cloud for cloud in near if cloud.count)
+        work = values_of(grid, clouds, ONE_THREAD, places=[index])
+    return [BlockRasters.of(arrays) for _, arrays in work.arrays]
 
 
 def _cells_of(

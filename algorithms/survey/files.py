@@ -8,7 +8,7 @@ from collections import Counter
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import Iterable, Iterator, Tuple, Union
+from typing import Any, Iterable, Iterator, Tuple, Union
 
 import numpy as np
 
@@ -105,6 +105,12 @@ class Survey:
     crs: Crs
     stated: str | None = None  # the CRS that the user states in place of the records, as WKT
     empty: tuple[LasFile, ...] = ()  # valid files without points, which are not among the tiles
+
+    @classmethod
+    def of_cloud(cls, cloud: PointCloud) -> Survey:
+        """Return points in memory as a survey of one file, which has what is asked of its tile."""
+        tile: Any = cloud
+        return cls((tile,), (), cloud.crs)
 
     @property
     def count(self) -> int:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from typing import Callable, Iterable, NamedTuple
+from typing import Iterable, NamedTuple
 
 import numpy as np
 
@@ -12,7 +12,6 @@ from ..core.errors import BareEarthError
 from ..core.points import Box, box_round, scaled
 from ..core.progress import SILENT, Progress
 from ..core.words import counted
-from ..las.cloud import PointCloud
 from ..las.lasfile import LasFile
 from ..las.reading import read_parts
 
@@ -33,7 +32,6 @@ _SHARE_STRAY = 1e-3
 _TIMES_APART = 10.0
 _HALF = 1 << 31  # makes column numbers positive
 _MOST_TOLD = 3  # groups of stray points that are named
-Read = Callable[[LasFile, Progress], Iterable[PointCloud]]
 
 
 class FilePiece(NamedTuple):
@@ -61,12 +59,12 @@ class _Held(NamedTuple):
 
 
 def pieces_of(
-    tiles: Iterable[LasFile], unit: float, progress: Progress = SILENT, read: Read = read_parts
+    tiles: Iterable[LasFile], unit: float, progress: Progress = SILENT
 ) -> list[FilePiece]:
     """Return the pieces of a survey, the one with the most points first, given the metres in a unit
     of the CRS; the points of files are read only where the extent leaves room for stray ones.
     """
-    held = [_held_by(tile, unit, read, progress) for tile in tiles]
+    held = [_held_by(tile, unit, progress) for tile in tiles]
     place, count, area, box = (np.concatenate(columns) for columns in zip(*held))
     group = _groups(place)
     points = np.rint(np.bincount(group, weights=count)).astype(np.int64)
@@ -137,12 +135,12 @@ def _far(metres: float) -> str:
     return f"{metres / 1000.0:,.1f} km" if metres < 10_000.0 else f"{metres / 1000.0:,.0f} km"
 
 
-def _held_by(tile: LasFile, unit: float, read: Read, progress: Progress) -> _Held:
+def _held_by(tile: LasFile, unit: float, progress: Progress) -> _Held:
     """Return the squares that hold the points of a file."""
     if not _has_room(tile, unit):
         return _of_extent(tile, unit)
     try:
-        return _of_points(tile, unit, read, progress)
+        return _of_points(tile, unit, progress)
     except BareEarthError:  # whoever needs its points says what is wrong with it
         nothing, box = np.zeros((1, 2), dtype=np.int64), np.array([tile.outer_box])
         return _Held(nothing, np.array([float(tile.count)]), np.ones(1), box)
@@ -174,12 +172,12 @@ def _of_extent(tile: LasFile, unit: float) -> _Held:
     return _Held(np.column_stack((row, column)), share * tile.count, area, np.column_stack(box))
 
 
-def _of_points(tile: LasFile, unit: float, read: Read, progress: Progress) -> _Held:
+def _of_points(tile: LasFile, unit: float, progress: Progress) -> _Held:
     """Return the squares that the points of a file touch."""
     held: dict[tuple[int, int], np.ndarray] = {}  # count, and extent
     fine: set[int] = set()
     ratio = round(_SQUARE / _FINE)
-    for part in read(tile, progress.quiet()):
+    for part in read_parts(tile, progress.quiet()):
         x, y = part.coordinates()
         row, column = (np.floor(axis * unit / _FINE).astype(np.int64) for axis in (y, x))
         fine.update(np.unique((row << 32) + column + _HALF).tolist())

@@ -26,6 +26,7 @@ _NEW = re.compile(
     r"|dataclass\(.*(slots|kw_only)=.*|.*\.is_junction\(.*|datetime\.UTC|.*\bStrEnum\b.*"
 )
 
+
 def test_a_mac_counts_free_pages_and_those_that_were_not_used_lately(monkeypatch):
     class System:
         class mach_host_self:

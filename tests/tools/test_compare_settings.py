@@ -11,6 +11,7 @@ from surveys import classes_of, write_points
 
 from bare_earth import BareEarthError, Cancelled, classify, compare_settings
 from bare_earth.algorithms.cli import main
+from bare_earth.algorithms.core.errors import NoGround
 from bare_earth.algorithms.tools.compare_settings.settings import SETTINGS, TrialOptions
 from bare_earth.algorithms.tools.ground.step import LabelGround
 
@@ -157,7 +158,7 @@ def test_the_context_is_told_and_can_be_chosen(source, made, tmp_path):
 
 def test_a_setting_without_ground_is_shown_as_such(source, tmp_path, monkeypatch):
     def none(*arguments):
-        raise BareEarthError("No ground was found.")
+        raise NoGround("No ground was found.")
 
     monkeypatch.setattr(LabelGround, "in_block", none)
     progress, how = Heard(), {"extent": WINDOW, "settings": BOTH}

@@ -14,8 +14,9 @@ from ...core.points import Box, Points, box_in_words, box_round
 from ...core.progress import Progress
 from ...crs.measurable import require_measurable
 from ...crs.system import Crs
+from ...engine.block_grid import BlockGrid
 from ...engine.memory import Resources
-from ...engine.visits import Work
+from ...engine.visits import values_of
 from ...grids.expected_error import expected_error, expected_rmse
 from ...las.cloud import PointCloud, survey_frame
 from ...las.lasfile import LasFile
@@ -103,16 +104,17 @@ class Window:
         depend on the setting are reported for the first one only.
         """
         step = LabelGround(setting.parameters)
-        work = Work.in_memory(step, survey_frame(self.crs))
-        selected = np.concatenate([work.add(cloud).selected for cloud in self.clouds])
-        reporting = progress if is_first else progress.quiet()
-        step.report_counts(work.counts, self.clouds[0].path, reporting)
+        counts, reporting = step.counts(), progress if is_first else progress.quiet()
+        selected = np.concatenate([step.marks(cloud, counts).selected for cloud in self.clouds])
+        step.report_counts(counts, self.clouds[0].path, reporting)
         progress.info(f"{setting.label}:")
-        failure = work.failure(resources, progress)
-        if failure:
-            progress.warning(f"{setting.label}: {failure}")
-        values = map(work.store.values, range(len(self.clouds)))
-        classified = [step.applied(*pair) for pair in zip(self.clouds, values)]
+        grid = BlockGrid(survey_frame(self.crs), step)
+        work = values_of(grid, self.clouds, resources, progress)
+        if work.failure:
+            progress.warning(f"{setting.label}: {work.failure}")
+        classified = [
+            step.applied(cloud, work.values(part)) for part, cloud in enumerate(self.clouds)
+        ]
         classes = np.concatenate([cloud.classification for cloud in classified])
         ground = classes == step.selection.to_class
         rmse = self._expected_rmse(ground, selected)
