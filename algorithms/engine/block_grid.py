@@ -58,7 +58,6 @@ class BlockGrid:
 
     @cached_property
     def blocks(self) -> Blocks:
-        """How the plane is cut."""
         return self.step.blocks
 
     def window(self, places: Iterable[BlockIndex]) -> Box:
@@ -177,7 +176,6 @@ def grouped(
 
 
 def _squares(places: Iterable[BlockIndex], width: int) -> list[list[BlockIndex]]:
-    """Group blocks by squares with a side of `width` blocks."""
     squares = defaultdict(list)
     for row, column in sorted((place.row, place.column) for place in places):
         squares[row // width, column // width].append(BlockIndex(column, row))

@@ -67,7 +67,6 @@ class PlaneBlock(NamedTuple):
         return holds
 
     def quarters(self) -> list[PlaneBlock]:
-        """Return the four blocks of half the side."""
         column, row, side = 2 * self.column, 2 * self.row, self.side / 2.0
         places = itertools.product((0, 1), (0, 1))
         return [PlaneBlock(column + i, row + k, side, self.start) for k, i in places]
@@ -106,7 +105,6 @@ class Blocks:
         return np.floor((places - self.start) / self.side)
 
     def block(self, column: int, row: int) -> PlaneBlock:
-        """Return a block."""
         return PlaneBlock(column, row, self.side, self.start)
 
     def corner(self, block: PlaneBlock) -> Corner:
@@ -123,7 +121,6 @@ class Blocks:
         return self.side / 2.0 ** min(levels, _LEVELS)
 
     def window(self, block: PlaneBlock) -> Box:
-        """Return the box of a block with its buffer."""
         west, south, east, north = block.box
         buffer = self.buffer
         return west - buffer, south - buffer, east + buffer, north + buffer
@@ -197,11 +194,9 @@ class Visit(NamedTuple):
 
     @property
     def corner(self) -> Corner:
-        """The place that is (0, 0) in `contents`; see `Blocks.corner`."""
         return self.blocks.corner(self.block)
 
     def contents(self, progress: Progress = SILENT, only: str | None = None) -> BlockPoints:
-        """Return the points of the block and its buffer; for `only`, see `Store.read`."""
         return self.blocks.contents(self.block, self.store, progress, only)
 
     def core(self, contents: BlockPoints) -> np.ndarray:

@@ -52,7 +52,7 @@ def run_jobs(
 
     def look() -> None:
         for report in reports.values():
-            report.tell(progress)
+            report.pass_on(progress)
         in_part = sum(report.fraction * weights[number] for number, report in reports.items())
         progress((done + in_part) / total)
 
@@ -91,12 +91,11 @@ class JobProgress(Notes):
         self.fraction, self._stop = 0.0, stop
 
     def report(self, fraction: float) -> None:
-        """Store the progress of the job."""
         if self._stop.is_set():
             raise Cancelled
         self.fraction = fraction
 
-    def tell(self, progress: Progress) -> None:
+    def pass_on(self, progress: Progress) -> None:
         """Pass on the messages since the last call."""
         while self.messages:
             kind, text = self.messages.pop(0)

@@ -84,7 +84,8 @@ class Cluster(Workers):
                 " the same authority."
             ) from error
         try:
-            self._mark = _marked(folder)
+            with write_errors_told(folder):
+                self._mark = make_temporary(folder / "run")  # exists while the run is active
             self._prepare(folder)
         except BaseException:
             self.stop()
@@ -157,7 +158,6 @@ class Cluster(Workers):
         return facts
 
     def submit(self, job: Job) -> Running:
-        """Begin a job, or raise an error if the scheduler is gone."""
         try:
             # Without arguments, since Dask would search these for results of other jobs.
             future = self._pool.submit(
@@ -169,7 +169,6 @@ class Cluster(Workers):
         return Running(future, JobProgress(threading.Event()))
 
     def check(self) -> None:
-        """Raise an error if the scheduler is gone, or had no workers for too long."""
         now = time.monotonic()
         if now - self._looked < _LOOKING:
             return
@@ -212,12 +211,6 @@ def _check_encryption(address: str) -> None:
         raise BareEarthError(f"{problem}: TLS needs a certificate, a key and an authority. {where}")
     if security.require_encryption and not is_secret:
         raise BareEarthError(f"{problem}: encryption is required. {where}")
-
-
-def _marked(folder: Path) -> Path:
-    """Make the file that exists while the run is active."""
-    with write_errors_told(folder):
-        return make_temporary(folder / "run")
 
 
 def _facts(marker: str) -> _Facts:

@@ -76,7 +76,6 @@ class DiskStore(Store):
             self._files.close()
 
     def append(self, part: PointCloud, marks: Marks) -> None:
-        """Add the selected points of the next part."""
         super().append(part, marks)
         indices = np.flatnonzero(marks.selected)
         indices = indices[self._runs.sort(part.places(indices, self.frame), self._stored)]
@@ -95,7 +94,6 @@ class DiskStore(Store):
         self._stored += len(indices)
 
     def finish(self, progress: Progress = SILENT) -> None:
-        """Finish adding points."""
         self.leaves = self._runs.finish()
         with write_errors_told(self._target):
             reach_disk(self._records)
@@ -130,7 +128,6 @@ class DiskStore(Store):
         return [end - start for start, end in runs], read
 
     def put(self, positions: np.ndarray, values: np.ndarray) -> None:
-        """Store the values of points, whose positions ascend."""
         if not len(positions):
             return
         kind, cuts = self._value_kind, np.flatnonzero(np.diff(positions) > _GAP) + 1
@@ -152,7 +149,6 @@ class DiskStore(Store):
         return RowsOnDisk(self._cells, start, cells.shape, cells.dtype)
 
     def values(self, number: int) -> np.ndarray:
-        """Return the values of all points of a part."""
         values = np.zeros(self._sizes[number], dtype=self._value_kind)
         start, end, *_ = *self._firsts[number:], self._stored
         indices = _read(self._orders, _INDEX, start, end)
@@ -203,7 +199,6 @@ class RowsOnDisk:
         return values[(slice(None), *columns)]
 
     def __array__(self, *arguments: object, **options: object) -> np.ndarray:
-        """Return the whole array."""
         return self[:]
 
 

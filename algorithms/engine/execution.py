@@ -9,12 +9,9 @@ from typing import TYPE_CHECKING, Any, Sequence
 
 from ..core.files import Outputs
 from ..core.progress import Progress
-from ..las.lasfile import LasFile
-from ..survey.files import Inputs
 from .memory import Resources
 from .options import TileOutput
 from .step import Step
-from .summary import RunSummary
 
 if TYPE_CHECKING:
     from .workers import Workers
@@ -22,7 +19,9 @@ if TYPE_CHECKING:
 
 @dataclass(eq=False)
 class Execution:
-    """Base of the two ways in which a run works on its inputs, with the parameters of the run."""
+    """Base of the two ways in which a run opens its inputs, works and writes, with the parameters
+    of the run.
+    """
 
     steps: Sequence[Step]
     resources: Resources
@@ -35,19 +34,3 @@ class Execution:
     opened: ExitStack = field(default_factory=ExitStack)  # is closed when the run ends
     # What `Step.finish` returned for the steps that write files.
     step_summaries: list[Any] = field(default_factory=list)
-
-    def open(self, inputs: Inputs) -> None:
-        """Open the inputs, and refuse now what would fail at the end."""
-        raise NotImplementedError
-
-    def copy_empty(self, layouts: Sequence[LasFile], target: Path) -> RunSummary:
-        """Write inputs that hold no points unchanged; return the summary."""
-        raise NotImplementedError
-
-    def work(self) -> None:
-        """Let the steps work one after another; each uses the results of those before it."""
-        raise NotImplementedError
-
-    def write(self, target: Path) -> RunSummary:
-        """Write the points that `work` has not written yet; return the summary."""
-        raise NotImplementedError

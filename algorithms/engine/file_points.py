@@ -115,7 +115,6 @@ class FilePoints:
 
     @property
     def place(self) -> Place:
-        """Where the points lie."""
         if self.is_in_memory:
             box = self.cloud.box if self.count else None
             return Place(str(self.path), self.cloud.crs, box)
@@ -143,7 +142,10 @@ class FilePoints:
             return
         is_packed = self.file.is_compressed and self.file.unpacked is None
         if not is_last and is_packed and has_room(self._target.parent, self.count):
-            self._unpack(progress.part(0.0, 0.7))
+            columns = None if self._needs_records else needed(self.file)
+            with write_errors_told(self._target):
+                file = self._files.enter_context(unnamed_file(self._target.parent))
+                self.file = unpack(self.file, file, columns, progress.part(0.0, 0.7))
             progress = progress.part(0.7, 1.0)
         # Reading reports what is wrong with the file only the first time.
         reading = progress.quiet() if self._was_read else progress
@@ -151,13 +153,6 @@ class FilePoints:
         for where, part in numbered(read_parts(self.file, reading)):
             self.cloud = self.cloud or part
             yield where, part
-
-    def _unpack(self, progress: Progress) -> None:
-        """Decompress the file into a temporary one, from which it is read from now on."""
-        columns = None if self._needs_records else needed(self.file)
-        with write_errors_told(self._target):
-            file = self._files.enter_context(unnamed_file(self._target.parent))
-            self.file = unpack(self.file, file, columns, progress)
 
     def sparing(self, progress: Progress) -> Progress:
         """Return a progress that also gives memory back to the system, if points are on disk."""
@@ -182,7 +177,6 @@ class FilePoints:
         return self.cloud.take(where) if self.is_in_memory else part
 
     def frame_of(self, step: Step) -> Frame:
-        """Return the frame in which a step works."""
         crs = self.cloud.crs if self.is_in_memory else read_crs(self.file)
         return survey_frame(crs, step.blocks.origin)
 
@@ -262,7 +256,6 @@ class TileResult:
 
     @property
     def is_empty(self) -> bool:
-        """Whether no point is to be written."""
         return not self.class_counts.any()
 
     def edits(self, progress: Progress = SILENT) -> Edits:
@@ -278,7 +271,6 @@ class TileResult:
         return edits
 
     def write(self, target: Path, progress: Progress) -> None:
-        """Write the output."""
         points, edits = self._points, self.edits(progress)
         progress = points.sparing(progress)
         write_changed(points.file, target, edits, progress, points.cloud, points.memory_left)

@@ -56,7 +56,6 @@ class OneFile(Execution):
         return kind(**{item.name: target.name if item.name == "name" else 0 for item in needed})
 
     def work(self) -> None:
-        """Read the points, and let the steps work."""
         las, steps = self._las, self.steps
         resources, opened = self.resources.now(), self.opened
         import_early(*(name for step in steps for name in step.imports))
@@ -72,7 +71,6 @@ class OneFile(Execution):
         self.work_on(points, working, self._files)
 
     def write(self, target: Path) -> RunSummary:
-        """Write the points with the results of the steps; return the summary."""
         writing = self.progress.part(_BEFORE_WRITING, 1.0)
         result = self.result(writing.part(0.0, 0.2))
         result.write(self._files.file(target), writing.part(0.2, 1.0))
@@ -80,7 +78,6 @@ class OneFile(Execution):
 
     @property
     def _other_outputs(self) -> list[Path]:
-        """The files that the steps write, apart from the points."""
         return [path for step in self.steps for _, path in step.outputs]
 
     def work_on(
@@ -89,13 +86,16 @@ class OneFile(Execution):
         """Let the steps work on points; `outputs` are needed if steps write files."""
         self._points, self._values = points, list[PointValues]()
         self.steps = steps_in_crs(self.steps, points.place, self.progress)
-        start, weights = 0, [step.weight for step in self.steps]
-        total = sum(weights)
-        while start < len(self.steps):
-            end = self._end_of_group(start)
-            part = progress.part(sum(weights[:start]) / total, sum(weights[:end]) / total)
-            self._work_group(slice(start, end), part, outputs or Outputs())
-            start = end
+        # Steps up to one that gives classes see the same classes, and share a reading.
+        groups: list[list[Step]] = [[]]
+        for step in self.steps:
+            groups[-1].append(step)
+            if step.gives_classes:
+                groups.append([])
+        groups = [group for group in groups if group]
+        shares = progress.shares(*(sum(step.weight for step in group) for group in groups))
+        for group, share in zip(groups, shares):
+            self._work_group(group, share, outputs or Outputs())
 
     @classmethod
     def on_cloud(
@@ -107,15 +107,10 @@ class OneFile(Execution):
             run.work_on(FilePoints(cloud, resources), progress)
         return run
 
-    def _end_of_group(self, start: int) -> int:
-        """Return the end of the group of steps that see the same classes, and share a reading."""
-        ends = (n + 1 for n in range(start, len(self.steps)) if self.steps[n].gives_classes)
-        return next(ends, len(self.steps))
-
-    def _work_group(self, group: slice, progress: Progress, outputs: Outputs) -> None:
+    def _work_group(self, group: Sequence[Step], progress: Progress, outputs: Outputs) -> None:
         points, works = self._points, []
         first = points.sparing(progress.part(0.0, 0.04))
-        for step in self.steps[group]:
+        for step in group:
             if isinstance(step, Sink):
                 frame = points.frame_of(step)
                 step = step.with_all_points(partial(self._read, first), frame, first)
@@ -148,7 +143,6 @@ class OneFile(Execution):
         return (part for _, part in with_values(self._points.parts(progress), self._values))
 
     def result(self, progress: Progress) -> TileResult:
-        """Return the results of the steps for all points."""
         result = TileResult.collected(self._points, self._values, progress)
         result.report(progress)
         return result

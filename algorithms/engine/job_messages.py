@@ -10,6 +10,9 @@ from ..core.words import first_of
 from .memory import GIGABYTE
 from .summary import JobCost
 
+# Numbers and names of files, in which messages of jobs may differ.
+_NUMBERS = re.compile(r"\S*\d\S*|\S+\.la[sz]\b\S*")
+
 
 class JobMessages:
     """The messages of jobs, of jobs on files only the warnings."""
@@ -23,10 +26,11 @@ class JobMessages:
         """Collect the messages of a job on a file, or of one on blocks, whose name is empty."""
         for kind, text in messages:
             if not name or kind == "warning":
-                alike = self._texts.setdefault((kind, _without_numbers(text), bool(name)), {})
+                key = kind, _NUMBERS.sub("#", text), bool(name)
+                alike = self._texts.setdefault(key, {})
                 alike.setdefault(f"{name}: {text}" if name else text, name)
 
-    def tell(self, progress: Progress) -> None:
+    def report(self, progress: Progress) -> None:
         """Report each message once, with the files whose messages differ only in numbers."""
         for (kind, _, of_files), alike in self._texts.items():
             first, *more_texts = alike
@@ -42,7 +46,7 @@ class JobMessages:
             getattr(progress, kind)(first + more)
 
 
-def tell_of_costs(costs: Sequence[JobCost], progress: Progress) -> None:
+def report_costs(costs: Sequence[JobCost], progress: Progress) -> None:
     """Report how long jobs took, and the one that took most memory."""
     for cost in costs:
         stage = "blocks" if cost.job == "blocks" else "files"
@@ -55,8 +59,3 @@ def tell_of_costs(costs: Sequence[JobCost], progress: Progress) -> None:
             f" {(most.memory or 0) / GIGABYTE:.2f} GB of memory"
             f" ({most.planned / GIGABYTE:.2f} GB planned)."
         )
-
-
-def _without_numbers(text: str) -> str:
-    """Return a message without names of files and numbers."""
-    return re.sub(r"\S*\d\S*|\S+\.la[sz]\b\S*", "#", text)

@@ -11,7 +11,7 @@ from typing import Collection, Sequence, Union
 from ..core.progress import Progress
 from ..core.temporary import remove
 from ..las.lasfile import LasFile
-from .job_messages import JobMessages, tell_of_costs
+from .job_messages import JobMessages, report_costs
 from .jobs import BlockJob, JobResult, TileJob
 from .running_jobs import RunningJobs
 from .summary import JobCost, TileSummary
@@ -38,7 +38,11 @@ class JobQueue:
         self.costs: list[JobCost] = []  # of the finished jobs
         self._workers, self._progress, self._messages = workers, progress, JobMessages()
         jobs: list[AnyJob] = [*blocks, *tiles]
-        self._jobs = _sorter(blocks, jobs)
+        makers = {file: job for job in blocks for file in job.output.files.values()}
+        self._jobs = TopologicalSorter(
+            {job: [makers[file] for file in job.needs if file in makers] for job in jobs}
+        )
+        self._jobs.prepare()
         # Jobs that can start: without and with results of others; the latter go first.
         self._first = collections.deque(self._jobs.get_ready())
         self._next = collections.deque[AnyJob]()
@@ -58,13 +62,12 @@ class JobQueue:
             running: RunningJobs[AnyJob] = RunningJobs(self._workers, self._take)
             for job, outcome in running.results(self._look):
                 self._end(job, outcome)
-            self._messages.tell(self._progress)
-            tell_of_costs(self.costs, self._progress)
+            self._messages.report(self._progress)
+            report_costs(self.costs, self._progress)
         finally:
             self._workers.stop()
 
     def _take(self) -> AnyJob | None:
-        """Return the next job; None if no job can start."""
         queue = self._next or self._first
         return queue.popleft() if queue else None
 
@@ -133,13 +136,3 @@ class JobQueue:
             self._next.append(marked)
         else:
             self._next.append(job)
-
-
-def _sorter(blocks: Sequence[BlockJob], jobs: Sequence[AnyJob]) -> TopologicalSorter[AnyJob]:
-    """Return what tells which jobs can start."""
-    makers = {file: job for job in blocks for file in job.output.files.values()}
-    sorter = TopologicalSorter(
-        {job: [makers[file] for file in job.needs if file in makers] for job in jobs}
-    )
-    sorter.prepare()
-    return sorter

@@ -70,7 +70,6 @@ class Job:
 
     @property
     def weight(self) -> float:
-        """The cost of the job, as a number of points to read and write."""
         raise NotImplementedError
 
     @property
@@ -99,11 +98,9 @@ class BlockJob(Job):
 
     @property
     def weight(self) -> float:
-        """The cost of the job, as a number of points to read and write."""
         return _BLOCK_WEIGHT * self.count
 
     def split(self) -> list[BlockJob]:
-        """Return one job for each block."""
         count, jobs = self.count / len(self.output.files), []
         for place, file in self.output.files.items():
             window = self.output.grid.window([place])
@@ -113,7 +110,6 @@ class BlockJob(Job):
         return jobs
 
     def planned(self, resources: Resources) -> int:
-        """Estimate the largest number of bytes of memory that the job takes."""
         return min(memory_of(self.output.grid, self.count), resources.bytes)
 
     def _clouds(self, store: Store, progress: Progress) -> Iterator[PointCloud]:
@@ -178,7 +174,6 @@ class BlockJob(Job):
             self.output.write(place, values, str(work.failure or ""))
 
     def _write_arrays(self, work: Work) -> None:
-        """Write the arrays of each block, some of which wait in the store."""
         grid = self.output.grid
         of_blocks: dict[BlockIndex, list[Mapping[str, Any]]] = defaultdict(list)
         for block, arrays in work.arrays:
@@ -197,16 +192,13 @@ class TileJob(Job):
 
     @property
     def weight(self) -> float:
-        """The cost of the job, as a number of points to read and write."""
         return float(self.tile.count)
 
     @property
     def title(self) -> str:
-        """The name of the job in reports."""
         return self.tile.path.name
 
     def planned(self, resources: Resources) -> int:
-        """Estimate the largest number of bytes of memory that the job takes."""
         return min(memory_of_file(self.tile), resources.bytes)
 
     def run(self, share: Share, progress: Progress) -> TileSummary | None:

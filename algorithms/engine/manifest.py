@@ -78,7 +78,6 @@ def short_name(content: bytes) -> str:
 
 
 def _settings(grids: Sequence[BlockGrid]) -> list[dict[str, object]]:
-    """Return the settings of the steps of grids, and the version."""
     from ..core.version import __version__
 
     return [

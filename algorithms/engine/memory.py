@@ -59,7 +59,6 @@ class Resources(ParameterSet):
 
     @property
     def thread_count(self) -> int:
-        """Number of threads to use."""
         return self.threads or available_cpus()
 
     @classmethod
@@ -73,7 +72,6 @@ class Resources(ParameterSet):
 
     @property
     def bytes(self) -> int:
-        """Memory to use, in bytes."""
         return int(free_memory() * _SHARE if self.memory is None else self.memory * GIGABYTE)
 
 
@@ -121,7 +119,6 @@ class GivingBack(PassingOn):
         self._also, self._given = also, time.process_time()
 
     def report(self, fraction: float) -> None:
-        """Pass on how much is done."""
         super().report(fraction)
         if time.process_time() - self._given > _SECONDS:
             give_back()

@@ -31,7 +31,6 @@ class MemoryStore(Store):
         self._parts: list[tuple[PointCloud, Marks]] = []
 
     def append(self, part: PointCloud, marks: Marks) -> None:
-        """Add the selected points of the next part."""
         super().append(part, marks)
         selected, known, wanted, flags = marks
         known = known if known is not None and known.any() else None
@@ -45,7 +44,6 @@ class MemoryStore(Store):
         self.has_known |= known is not None
 
     def finish(self, progress: Progress = SILENT) -> None:
-        """Finish adding points."""
         self._values = np.zeros(self.count, dtype=self._value_kind)
         choosing = progress.part(0.0, 0.3).shares(*[1.0] * len(self._parts))
         # The indices of the selected points of each part, sorted by leaves. Positions in the leaf
@@ -130,11 +128,9 @@ class MemoryStore(Store):
         return BlockPoints(points, known, wanted, positions, flags)
 
     def put(self, positions: np.ndarray, values: np.ndarray) -> None:
-        """Store the values of points."""
         self._values[positions] = values
 
     def values(self, number: int) -> np.ndarray:
-        """Return the values of all points of a part."""
         start = self.starts[number]
         return self._values[start : start + self._parts[number][0].count]
 

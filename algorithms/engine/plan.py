@@ -57,12 +57,10 @@ class _PlannedBlock:
 
     @property
     def key(self) -> tuple[int, BlockIndex]:
-        """The key by which blocks are sorted."""
         return self.step, self.place
 
     @cached_property
     def sources(self) -> list[Path]:
-        """The files that may have points for the block."""
         return sources_of(self._grid, self._survey, self.place)
 
     @cached_property
@@ -143,15 +141,12 @@ class Plan:
         return self.steps[number].gives_classes
 
     def stamps_of(self, paths: Iterable[Path]) -> list[Stamp]:
-        """Return the stamps of some inputs, which show whether these have changed."""
         return [self._stamps[path] for path in sorted(paths)]
 
     def block(self, step: int, place: BlockIndex) -> _PlannedBlock:
-        """Return a block of a step."""
         return self._blocks.setdefault((step, place), _PlannedBlock(self, step, place))
 
     def places_of(self, tile: LasFile, step: int) -> list[BlockIndex]:
-        """Return the indices of the blocks of a step that may hold points of a file."""
         key = tile.path, step
         if key not in self._places:
             self._places[key] = places_of(self.grids[step], tile)
@@ -169,7 +164,6 @@ class Plan:
         return self._inputs[together]
 
     def _fingerprint(self, tile: LasFile) -> Fingerprint:
-        """Return everything that the output of a file depends on."""
         stamps, target = self.stamps_of(self._inputs_of(tile)), self._targets[tile.path]
         return fingerprint_of(self.grids, tile.path, stamps, target)
 

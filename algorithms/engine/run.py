@@ -10,13 +10,13 @@ from ..core.files import Outputs
 from ..core.progress import SILENT, Progress
 from ..las.opening import NoPoints
 from ..survey.files import Inputs
-from .execution import Execution
 from .file_run import OneFile
 from .memory import Resources
 from .options import TileOutput
 from .step import Step
 
 if TYPE_CHECKING:
+    from .survey_run import ManyFiles
     from .workers import Workers
 
 
@@ -43,7 +43,7 @@ class Run:
         # `target`, and the virtual point cloud of a survey, are None if no step computes a value
         # for each point. The workers are by default threads of this process. All but the files of a
         # survey get their names when `outputs` ends, or else at the end of the run.
-        kind: type[Execution] = OneFile
+        kind: type[OneFile | ManyFiles] = OneFile
         if inputs.is_survey:
             from .survey_run import ManyFiles
 

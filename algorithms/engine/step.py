@@ -163,7 +163,6 @@ class PointStep(Step):
 
     @property
     def changes(self) -> frozenset[str]:
-        """What differs in the output."""
         return frozenset({CLASSES})
 
     def check_file(self, file: LasFile) -> None:

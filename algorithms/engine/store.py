@@ -74,13 +74,11 @@ class BlockPoints(NamedTuple):
         return cls(points, known, wanted, positions, dict(zip(names, flags)))
 
     def put(self, start: int, added: BlockPoints) -> None:
-        """Overwrite points from index `start` on with other points."""
         where = slice(start, start + added.points.count)
         for old, new in zip(self._arrays, added._arrays):
             old[where] = new
 
     def take(self, selected: np.ndarray | slice) -> BlockPoints:
-        """Return the points that a mask or a slice selects."""
         if isinstance(selected, np.ndarray) and selected.dtype == bool:
             selected = np.flatnonzero(selected)  # faster than to use the mask six times
         known, wanted, positions = (array[selected] for array in self[1:4])

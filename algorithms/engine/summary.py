@@ -29,7 +29,6 @@ class RunSummary:
 
     @property
     def tiles(self) -> tuple[Any, ...]:
-        """The summaries of the files."""
         return (self,)
 
     @property
@@ -54,7 +53,6 @@ class TileSummary(RunSummary):
         object.__setattr__(self, "class_counts", counts)
 
     def told(self, output: Path) -> str:
-        """Return the summary with the folder of the output."""
         return f"{output.parent / self.text}"  # which begins with the name
 
 
@@ -83,7 +81,6 @@ class SurveySummary(RunSummary):
 
     @property
     def text(self) -> str:
-        """The counts in words."""
         kept = f" ({self.kept_count:,} of them in an earlier run)" if self.kept_count else ""
         text = f"{self.done_count:,} of {self.tile_count:,} files are done{kept}"
         if not self.ground_count:

@@ -87,7 +87,6 @@ class ManyFiles(Execution):
         self._failures = {tile.path.name: (tile.path, tile.reason) for tile in survey.broken}
 
     def _choose_targets(self, folder: Path) -> None:
-        """Set the output of each file, and refuse an unsuitable folder."""
         check_survey(self._survey, folder, self.vpc, self._searched)
         self._targets = targets_of(self._survey, folder, self.output.format)
 
@@ -112,7 +111,7 @@ class ManyFiles(Execution):
         if self.target is not None:
             self._work_on_points(self.target, workers)
             return
-        self._tell_of_failures()
+        self._report_failures()
         with temporary_folder(self._sinks[0].outputs[0][1].parent) as waiting:
             unpacking = _unpacking(waiting, self._survey, workers, is_whole=False)
             progress = self.progress.part(0.02, 1.0)
@@ -195,7 +194,7 @@ class ManyFiles(Execution):
             )
             self.step_summaries.append(summary)
 
-    def _tell_of_failures(self) -> dict[str, str]:
+    def _report_failures(self) -> dict[str, str]:
         """Report the files that are left out; return the reasons by path."""
         reasons = {str(path): reason for path, reason in sorted(self._failures.values())}
         for path, reason in reasons.items():
@@ -204,7 +203,7 @@ class ManyFiles(Execution):
 
     def write(self, target: Path) -> SurveySummary:
         """Report on the files, copy the empty ones, and write the virtual point cloud."""
-        progress, reasons = self.progress, self._tell_of_failures()
+        progress, reasons = self.progress, self._report_failures()
         if not self._done:
             raise BareEarthError(
                 f"None of the {len(reasons):,} files could be done."

@@ -159,7 +159,6 @@ class BlockValues(PointValues):
         return values
 
     def check(self) -> None:
-        """Refuse a file if some values were not used."""
         if any(self._used.get(block, 0) < rows.shape[0] for block, rows in self._values.items()):
             raise self._changed()
 

@@ -79,7 +79,7 @@ def values_of(
     """Let the step of a grid work on points, in all of its blocks or in those at some places, and
     return what it found; `Work.parts` have the numbers of the places of points, from 1 on.
     """
-    step, is_wanted = grid.step, None
+    step = grid.step
     work = Work(step, store or MemoryStore(grid.frame, grid.blocks, step.kind))
     for cloud in clouds:
         wanted = None
@@ -88,8 +88,10 @@ def values_of(
             wanted = work.parts[-1][1] > 0
         work.add(cloud, wanted=wanted)
     work.store.finish(progress.part(0.0, 0.1))
-    if places is not None:
-        is_wanted = partial(_is_at, grid, places)
+
+    def is_wanted(block: PlaneBlock) -> bool:
+        return places is None or grid.holding(block) in places
+
     if not work.has_points:
         return work
     try:
@@ -97,11 +99,6 @@ def values_of(
     except NoGround as failure:
         work.failure = failure
     return work
-
-
-def _is_at(grid: BlockGrid, places: Sequence[BlockIndex], block: PlaneBlock) -> bool:
-    """Return whether a block is at one of some places, or a part of a block there."""
-    return grid.holding(block) in places
 
 
 def visited(

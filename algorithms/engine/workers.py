@@ -77,7 +77,6 @@ class Threads(Workers):
     """Threads of this process."""
 
     def start(self, folder: Path, least: int, blocks: int, tiles: int) -> None:
-        """Prepare for jobs."""
         super().start(folder, least, blocks, tiles)
         self._stop = threading.Event()
         self._futures: list[Future[JobResult]] = []
@@ -85,7 +84,6 @@ class Threads(Workers):
         self._threads = SharedThreads(self.resources.thread_count)
 
     def submit(self, job: Job) -> Running:
-        """Start a job."""
         progress = JobProgress(self._stop)
         share = Share(self.share, self._threads, is_alone=self.at_once == 1)
         future = self._pool.submit(attempt, job, share, progress)
@@ -106,7 +104,6 @@ class Processes(Workers):
     most = 61 if sys.platform == "win32" else None
 
     def start(self, folder: Path, least: int, blocks: int, tiles: int) -> None:
-        """Prepare for jobs."""
         import multiprocessing
 
         super().start(folder, least, blocks, tiles)
@@ -125,13 +122,11 @@ class Processes(Workers):
         self._pool = ProcessPoolExecutor(self.at_once, self._context, begin, values)
 
     def submit(self, job: Job) -> Running:
-        """Start a job."""
         future = self._pool.submit(_in_process, job, self.share)
         self._known.update(self._pool._processes or {})
         return Running(future, JobProgress(threading.Event()))
 
     def restart(self) -> None:
-        """Start new processes after one died."""
         self._close()
         self._open()
 
@@ -160,21 +155,17 @@ class Local(Workers):
     # The job of a single block uses all threads, so the time to start processes would be lost.
 
     def start(self, folder: Path, least: int, blocks: int, tiles: int) -> None:
-        """Prepare for jobs."""
         self._workers: Workers = (Processes if blocks > 1 else Threads)(self.resources)
         self._workers.start(folder, least, blocks, tiles)
         self.at_once, self.share = self._workers.at_once, self._workers.share
 
     def submit(self, job: Job) -> Running:
-        """Start a job."""
         return self._workers.submit(job)
 
     def restart(self) -> None:
-        """Prepare for jobs again after a worker died."""
         self._workers.restart()
 
     def stop(self) -> None:
-        """Stop all jobs."""
         self._workers.stop()
 
 

@@ -66,7 +66,6 @@ def of_check() -> Function:
 
 
 def _residuals(values: SimpleNamespace, sets: Sequence[ParameterSet]) -> Features:
-    """Return checkpoints with their errors."""
     points, options = _ground_points(values, sets), CheckOptions.among(sets)
     checkpoints = checkpoints_of(values)
     if checkpoints is None:
@@ -94,7 +93,6 @@ def of_residuals() -> Function:
 
 
 def _water(values: SimpleNamespace, sets: Sequence[ParameterSet]) -> dict[str, Features]:
-    """Return the water and its breaklines by name."""
     classes, progress = GroundClasses.among(sets), progress_of(values.progress)
     with may_use(available_cpus()):
         points = _ground_points(values, sets)

@@ -36,7 +36,6 @@ _RASTER = (
 
 
 def _contours(values: SimpleNamespace, sets: Sequence[ParameterSet]) -> Features:
-    """Return the contour lines of a raster."""
     raster = read_raster(heights_of(values.raster), window=NO_CELLS)
     _, layer, features = contours_of(raster, Contours.among(sets), progress_of(values.progress))
     return Features.of(layer, features)
@@ -62,7 +61,6 @@ def of_contours() -> Function:
 
 
 def _relief(values: SimpleNamespace, sets: Sequence[ParameterSet]) -> dict[str, Raster]:
-    """Return pictures of the relief by kind."""
     names, collected = {kind: KINDS[kind] for kind in ReliefKinds.among(sets).kinds}, Collected()
     paths = {name: Path(name) for name in names.values()}
     draw_reliefs(
@@ -88,7 +86,6 @@ def of_relief() -> Function:
 
 
 def _bare(values: SimpleNamespace, sets: Sequence[ParameterSet]) -> Raster:
-    """Return a surface model without the objects on it."""
     collected, name = Collected(), Path("without_objects")
     remove_objects_file(
         heights_of(values.raster), name, OffTerrain.among(sets), progress_of(values.progress),

@@ -84,7 +84,6 @@ def _found(
 
 
 def _classes(values: SimpleNamespace, sets: Sequence[ParameterSet]) -> np.ndarray | None:
-    """Return the class of each point."""
     progress = progress_of(values.progress)
     inputs = {"area": area_of(values), "corrections": corrections_of(values)}
     steps = map_tool("classify").steps(sets, inputs, {})
@@ -98,13 +97,11 @@ def _ground_of(values: SimpleNamespace, sets: Sequence[ParameterSet]) -> np.ndar
 
 
 def _area_of(command: str) -> tuple[Argument, ...]:
-    """Return the arguments for the area of a tool."""
     (area,) = (declared for declared in map_tool(command).inputs if declared.kind == "area")
     return arguments_of(area)
 
 
 def _of_classes(name: str, about: str, gives: Kind, run: Run) -> Function:
-    """Return a function that finds the ground."""
     return Function(
         name,
         f"{about}\nThe labels are those of classify() on a file with the same points.",
@@ -153,7 +150,6 @@ class _RastersInMemory(MakeRasters):
         progress: Progress,
         tiles: Sequence[LasFile] | None = None,
     ) -> Any:
-        """Return the rasters by their names."""
         collected = Collected()
         blocks = [BlockRasters.of(arrays) for arrays in results]
         write_rasters(blocks, frame, self, outputs, progress, write_cells=collected.add)

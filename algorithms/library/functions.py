@@ -49,7 +49,6 @@ class Described:
 
     @property
     def section(self) -> str:
-        """The lines of the documentation."""
         text = textwrap.fill(
             self.help, _WIDTH, initial_indent="    ", subsequent_indent="    ",
             break_on_hyphens=False,
@@ -79,7 +78,6 @@ class Function:
 
     @property
     def parameters(self) -> list[Described]:
-        """The parameters in order."""
         first = [argument for argument in self.keywords if argument.name not in _LAST]
         last = [argument for argument in self.keywords if argument.name in _LAST]
         parameters = [_of_argument(argument, is_keyword=False) for argument in self.positional]
@@ -96,7 +94,6 @@ class Function:
 
     @property
     def documentation(self) -> str:
-        """The documentation as numpydoc has it."""
         sections = "\n".join(described.section for described in self.parameters)
         about = "\n\n".join(
             textwrap.fill(paragraph, _WIDTH, break_on_hyphens=False)
@@ -242,7 +239,6 @@ def _of_flag(declared: Declaration, flag: str) -> Described:
 
 
 def _kind_of(declared: Declaration) -> Kind:
-    """Return the type of a parameter."""
     choices = ", ".join(map(repr, declared.choices)).replace("'", '"')
     word = f' | Literal["{declared.word}"]' if declared.word else ""
     kind = {

@@ -48,7 +48,6 @@ class BarProgress(Progress):
         self._bar, bar.total = bar, bar.total or 1.0
 
     def report(self, fraction: float) -> None:
-        """Move the bar."""
         self._bar.update(fraction * self._bar.total - self._bar.n)
 
 

@@ -76,7 +76,8 @@ def cloud_of(values: SimpleNamespace, progress: Progress = SILENT) -> PointCloud
         arrays = dict(zip(COORDINATES, integers))
         arrays.update((name, np.zeros(len(x), dtype=np.uint8)) for name in _NUMBERS)
         arrays["withheld"] = np.zeros(len(x), dtype=bool)
-        crs = _crs_of(values.crs or (crs_text(points.crs) if is_frame(points) else None), progress)
+        stated = stated_wkt(values.crs or (crs_text(points.crs) if is_frame(points) else None))
+        crs = (crs_of_wkt(stated, progress) if stated else None) or Crs()
         cloud = _made(arrays, scales, offsets, _POINT_FORMAT, crs)
         for name in _ATTRIBUTES.values():
             if name in columns:
@@ -169,7 +170,7 @@ def _axis(name: str, array: np.ndarray) -> _CoordinateAxis:
 
 
 def _are_whole(array: np.ndarray, decimals: int, error: float) -> bool:
-    """Return whether all numbers have so few decimals, but for an error."""
+    """Return whether all numbers are multiples of 10^-decimals within a tolerance."""
     steps = 10.0**decimals
 
     def is_whole(part: slice) -> bool:
@@ -247,9 +248,3 @@ class _Record(NamedTuple):
 
     key: tuple[str, int]
     data: bytes
-
-
-def _crs_of(given: str | None, progress: Progress) -> Crs:
-    """Return the CRS of arrays; metres if none is given."""
-    text = stated_wkt(given)
-    return (crs_of_wkt(text, progress) if text else None) or Crs()

@@ -17,7 +17,7 @@ from ..engine.memory import Resources
 from ..engine.options import TileInput, TileOutput
 from ..survey.files import Inputs
 from ..tools import composition, file_tool, map_tool, point_tool
-from ..tools.declaration import POINTS, FileTool, Input, ToFind, Tool
+from ..tools.declaration import POINTS, Input, ToFind, Tool
 from ..tools.input_groups import GROUPS
 from ..tools.listing import COMPOSITIONS, FILE_TOOLS, MAP_TOOLS, POINT_TOOLS
 from . import arguments, tool_commands
@@ -86,7 +86,10 @@ def _of_file_tool(command: str) -> Function:
         outputs = _outputs_of(tool, values)
         return run_tool(tool, inputs, outputs, sets, progress_of(values.progress))
 
-    result, *many = _results_of(tool)
+    # The class of the summary, and that of many files if it has another: the work of the tool is
+    # annotated with both.
+    names = str(inspect.signature(tool.work).return_annotation).split(" | ")
+    result, *many = (getattr(sys.modules[tool.work.__module__], name, None) for name in names)
     return Function(
         command.replace("-", "_"),
         tool.help,
@@ -98,14 +101,6 @@ def _of_file_tool(command: str) -> Function:
         flags=tool.flags,
         result_of_many=many[0] if many else None,
     )
-
-
-def _results_of(tool: FileTool) -> list[type | None]:
-    """Return the class of the summary of a tool, and that of many files if it has another; the work
-    of the tool is annotated with both.
-    """
-    names = str(inspect.signature(tool.work).return_annotation).split(" | ")
-    return [getattr(sys.modules[tool.work.__module__], name, None) for name in names]
 
 
 def arguments_of(declared: Input) -> tuple[Argument, ...]:
@@ -158,7 +153,6 @@ def input_of(declared: Input, values: SimpleNamespace) -> object:
 
 
 def _of_point_tool(command: str) -> Function:
-    """Return the function of a tool that writes classified files again."""
     tool = point_tool(command)
     return Function(
         POINT_TOOLS[command].file,
@@ -176,7 +170,6 @@ def _of_point_tool(command: str) -> Function:
 
 
 def _run_on_points(tool: Tool, values: SimpleNamespace, sets: Sequence[ParameterSet]) -> object:
-    """Run a tool on points."""
     from ..tools.running import run
 
     outputs = _outputs_of(tool, values)
@@ -220,7 +213,6 @@ def _of_map_tool(command: str) -> Function:
 
 
 def _of_composition(command: str) -> Function:
-    """Return the function of tools that work one after another."""
     from ..delivery.summary import DeliverySummary
 
     tool = composition(command)
