@@ -15,7 +15,7 @@ from ..las.cloud import PointCloud
 from .kept_classes import reserved, used
 from .point_counts import count_classes
 from .selection import Selection
-from .without_ground import WithoutGround, refuse_groundless, tell_of_groundless
+from .without_ground import WithoutGround, refuse_groundless, report_groundless
 
 # The flag of points of rails and roads, which count as ground if they lie on it.
 ROADS_FLAG = "roads"
@@ -108,7 +108,7 @@ class GroundClasses(ParameterSet):
         if without and len(without) == len(files):
             advice = "Classify the ground first, or choose other ground classes."
             refuse_groundless([file.name for file in without], ground, advice)
-        tell_of_groundless(without, progress, ground)
+        report_groundless(without, progress, ground)
 
     @property
     def _wanted(self) -> str:

@@ -39,7 +39,7 @@ SUBMERGED = (43, 44, 45)  # between the bottom and the surface
 ALL_CLASSES = "all"
 
 
-def tell_of_kept(counts: PointCounts, others: Collection[int], progress: Progress) -> None:
+def report_kept(counts: PointCounts, others: Collection[int], progress: Progress) -> None:
     """Report the classes that stay by default, and how to classify them as well; `others` are
     classes that do not stay.
     """

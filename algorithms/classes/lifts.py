@@ -43,7 +43,7 @@ class Lifts:
             top = float(np.quantile(heights[numbers == number], _SHARE))
             self._tops[number] = max(self._tops.get(number, top), top)
 
-    def tell(self, progress: Progress) -> None:
+    def report(self, progress: Progress) -> None:
         """Warn of places that lie higher by more than their expected error."""
         found = []
         for number, top in self._tops.items():

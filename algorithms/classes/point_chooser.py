@@ -75,7 +75,7 @@ class PointChooser:
             return None
         return self.area.buffered_box(self.context / crs.horizontal_unit)
 
-    def tell(self, counts: PointCounts, path: Path, progress: Progress) -> None:
+    def report(self, counts: PointCounts, path: Path, progress: Progress) -> None:
         """Report how many points lie in the area and take part, after all points were counted;
         refuse a file if no point does.
         """
@@ -83,16 +83,16 @@ class PointChooser:
             if not counts.inside:
                 raise outside("the area", self.area.bounds, str(path), cast(Box, counts.bounds))
             progress.info(f"{counts.inside:,} of {counts.points:,} points lie in the area.")
-        self.selection.tell(counts, path, progress, self.area is not None)
+        self.selection.report(counts, path, progress, self.area is not None)
         if not counts.by_hand:
-            self.tell_of_corrections(progress)
+            self.report_unused_corrections(progress)
         if not counts.wanted:
             raise BareEarthError(
                 f"None of the {counts.inside:,} points in the area takes part. Choose"
                 " another area, or other returns or classes."
             )
 
-    def tell_of_corrections(self, progress: Progress) -> None:
+    def report_unused_corrections(self, progress: Progress) -> None:
         """If polygons of corrections set classes, warn that no point gets its class from them."""
         if self.corrections.exact:
             progress.warning(

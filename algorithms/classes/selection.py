@@ -27,8 +27,8 @@ from .kept_classes import (
     UNCLASSIFIED,
     is_one_of,
     overlapping,
+    report_kept,
     reserved,
-    tell_of_kept,
     used,
 )
 from .point_counts import PointCounts, count_classes
@@ -215,7 +215,7 @@ class Selection(ParameterSet):
         classes = np.where(corrected, of_polygons, part.classification).astype(np.uint8)
         return ByHand(corrected | changed_since(part), classes)
 
-    def tell(
+    def report(
         self, counts: PointCounts, path: Path, progress: Progress, in_area: bool = False
     ) -> None:
         """Report how many points of a file take part, and why the others do not."""
@@ -230,7 +230,7 @@ class Selection(ParameterSet):
         if counts.withheld:
             words = "withheld point is", "withheld points are"
             progress.info(f"{counted(counts.withheld, *words)} left out.")
-        self.tell_of_kept(counts, progress)
+        self.report_kept(counts, progress)
         if counts.from_zero:
             progress.warning(FROM_ZERO)
         elif self.returns == "last" and counts.unnumbered == counts.points:
@@ -258,10 +258,10 @@ class Selection(ParameterSet):
             progress.info(counted(counts.by_hand, *words))
         progress.info(f"{counts.selected:,} of {counts.points:,} points take part.")
 
-    def tell_of_kept(self, counts: PointCounts, progress: Progress) -> None:
+    def report_kept(self, counts: PointCounts, progress: Progress) -> None:
         """Report which classes stay by default, and how many points are overlap."""
         if not self.from_classes:
-            tell_of_kept(counts, {self.to_class, *(self.seed_classes or ())}, progress)
+            report_kept(counts, {self.to_class, *(self.seed_classes or ())}, progress)
         if counts.overlap:
             words = "point of overlap takes", "points of overlap take"
             fate = "part as others do"

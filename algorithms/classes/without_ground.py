@@ -24,7 +24,7 @@ class WithoutGround(NamedTuple):
     why: str = ""  # a sentence, if the reason is known
 
 
-def tell_of_groundless(
+def report_groundless(
     files: Sequence[WithoutGround], progress: Progress, ground: str = "ground", where: str = ""
 ) -> None:
     """Warn of files without ground, with their numbers of points, in one line for all alike."""

@@ -36,7 +36,7 @@ def selected_by(selection, cloud, progress, within=None):
     PointChooser(selection).choose(cloud, PointCounts())
     counts = PointCounts()
     selected = selection.choose(cloud, counts, within)
-    selection.tell(counts, cloud.path, progress, within is not None)
+    selection.report(counts, cloud.path, progress, within is not None)
     return selected
 
 

@@ -12,7 +12,7 @@ from bare_earth.algorithms.filters import METHODS
 from bare_earth.algorithms.filters.stages.noise import noise_of_squares
 from bare_earth.algorithms.grids.cells import Cells, spacing
 from bare_earth.algorithms.tools.ground import step
-from bare_earth.algorithms.tools.ground.labelling import blocks_of, near, tell_spacing, thinned
+from bare_earth.algorithms.tools.ground.labelling import blocks_of, near, report_spacing, thinned
 
 BOX = near((0.0, 0.0, 100.0, 100.0))
 
@@ -51,7 +51,7 @@ def test_nothing_is_thinned_where_all_points_are_near():
 def test_the_spacing_is_that_of_the_points_that_are_not_thinned():
     left = thinned(contents(1_000_000), BOX).points
     assert spacing(Points(*left), 0.01) == pytest.approx(0.5)
-    tell_spacing(left, BOX)
+    report_spacing(left, BOX)
     assert spacing(left, 0.01) == pytest.approx(0.354, abs=0.001)
 
 
@@ -90,7 +90,7 @@ def test_the_noise_is_that_of_points_that_are_not_thinned():
     left = thinned(whole, BOX).points
     inside = left.take(left.within(BOX))
     assert noise_in(left) != noise_in(inside)  # the lowest points of cells scatter less
-    tell_spacing(left, BOX)
+    report_spacing(left, BOX)
     assert noise_in(left) == noise_in(inside) > 0.2
 
 

@@ -86,7 +86,7 @@ def labelled(
         try:
             found = _labels(contents, core, label, visit.blocks.buffer, notes)
             if TO_CONTINUE in contents.flags:
-                tell_spacing(contents.points, box)
+                report_spacing(contents.points, box)
                 notes.continued = _continue(contents, core, found)
             labels = found if core.all() else found[core]
         except BareEarthError as error:
@@ -112,7 +112,7 @@ def _label(
     if points.count == 1:
         # A single point cannot be compared with others, and there can be many such groups.
         return np.array([Label.GROUND], dtype=np.uint8)
-    tell_spacing(points, box)
+    report_spacing(points, box)
     warn_of_extent(points, *method.largest(parameters), progress)
     ground, outliers, _ = method.ground(
         points, parameters, part, known, contents.flags[MULTI_RETURN]
@@ -195,7 +195,7 @@ class BlockMessages(Notes):
             super().keep(kind, text)
 
 
-def tell(progress: Progress, blocks: list[BlockMessages]) -> None:
+def report_notes(progress: Progress, blocks: list[BlockMessages]) -> None:
     """Report each message of the blocks once, and the number of blocks that failed."""
     failed = [block for block in blocks if block.failure is not None]
     failures = [block.failure for block in blocks if block.failure is not None]
@@ -216,7 +216,7 @@ def tell(progress: Progress, blocks: list[BlockMessages]) -> None:
         )
 
 
-def tell_of_continued(count: int, progress: Progress) -> None:
+def report_continued(count: int, progress: Progress) -> None:
     """Report how many points became ground by answers, or warn if no point did."""
     if count:
         words = "point continues the ground", "points continue the ground"
@@ -252,7 +252,7 @@ def thinned(contents: BlockPoints, box: Box) -> BlockPoints:
     return contents.take(stays)
 
 
-def tell_spacing(points: Points, box: Box) -> None:
+def report_spacing(points: Points, box: Box) -> None:
     """Give points the spacing and the noise of those in a box, which are not thinned."""
     if points.are_within(box):
         return

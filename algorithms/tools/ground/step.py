@@ -34,11 +34,11 @@ from .labelling import (
     blocks_of,
     labelled,
     reach_of,
-    tell,
-    tell_of_continued,
+    report_continued,
+    report_notes,
 )
 from .output import PointOutput
-from .summary import Summary, tell_of_groundless_files
+from .summary import Summary, report_groundless_files
 
 
 @dataclass(frozen=True)
@@ -108,7 +108,7 @@ class LabelGround(PointStep):
 
     def report_counts(self, counts: PointCounts, path: Path, progress: Progress) -> None:
         """Report how many points take part; refuse a file without any."""
-        self.chooser.tell(counts, path, progress)
+        self.chooser.report(counts, path, progress)
 
     def check_file(self, file: LasFile) -> None:
         """Refuse a file whose points cannot hold the classes."""
@@ -123,21 +123,21 @@ class LabelGround(PointStep):
         if self.output.area_only:
             super().report_survey(done, empty, progress)
             empty = ()
-        tell_of_groundless_files(done, empty, self.area is not None, progress)
+        report_groundless_files(done, empty, self.area is not None, progress)
         counts = PointCounts(overlap=sum(summary.overlap_count for summary in done))
         for summary in done:
             for value, count in summary.input_class_counts.items():
                 counts.classes[value] += count
             for value, count in summary.reserved_class_counts.items():
                 counts.classes[value] -= count  # each file has told of them
-        self.selection.tell_of_kept(counts, progress)
+        self.selection.report_kept(counts, progress)
         if self.area is not None and not any(summary.area_count for summary in done):
             progress.warning(
                 "No point lies in the area. Give the extent or the boundary in the CRS of the"
                 " points."
             )
         elif not any(summary.by_hand_count for summary in done):
-            self.chooser.tell_of_corrections(progress)
+            self.chooser.report_unused_corrections(progress)
 
     def in_block(self, visit: Visit, progress: Progress) -> tuple[Any, ...]:
         """Label the points of a block; see `labelled`."""
@@ -153,9 +153,9 @@ class LabelGround(PointStep):
                 f"{method.label} does not start from known ground; it only keeps these"
                 " points as ground."
             )
-        tell(progress, [of_block for of_block in notes if of_block.count])
+        report_notes(progress, [of_block for of_block in notes if of_block.count])
         if self.corrections.continues:
-            tell_of_continued(sum(of_block.continued for of_block in notes), progress)
+            report_continued(sum(of_block.continued for of_block in notes), progress)
 
     def result(self, path: Path, allocate: Allocate) -> ClassifiedPoints:
         """Return an object that counts the classified points of a file."""
@@ -208,10 +208,10 @@ class ClassifiedPoints(PointResult):
         """
         if failure is not None:
             if self._counts.of_returns:
-                self._step.selection.tell(self._counts, self._path, progress)
+                self._step.selection.report(self._counts, self._path, progress)
             self._why = failure or self._counts.why_none
             return
-        self._lifts.tell(progress)
+        self._lifts.report(progress)
         selection, output = self._step.selection, self._step.output
         if output.ground_only and not self._written_ground_count:
             raise BareEarthError(

@@ -9,7 +9,7 @@ from ...classes.without_ground import (
     UNCHANGED,
     WithoutGround,
     refuse_groundless,
-    tell_of_groundless,
+    report_groundless,
 )
 from ...core.progress import Progress
 from ...engine.summary import TileSummary
@@ -58,7 +58,7 @@ class Summary(TileSummary):
         return f"{self.name}: {ground:,} of {count:,} points{where} are ground ({share:.1f} %)"
 
 
-def tell_of_groundless_files(
+def report_groundless_files(
     done: Sequence[Summary], unwritten: Sequence[LasFile], has_area: bool, progress: Progress
 ) -> None:
     """Warn of files of a survey without ground, those that were not written for that reason among
@@ -72,7 +72,7 @@ def tell_of_groundless_files(
     is_seen = has_area and not all(file.why for file in without)
     is_known = any(summary.found_ground or summary.by_hand_count for summary in done)
     if is_known or is_seen or not without:
-        tell_of_groundless(without, progress, where=where)
+        report_groundless(without, progress, where=where)
         return
     reasons = {file.why for file in without}
     why = without[0].why if len(reasons) == 1 else ""
