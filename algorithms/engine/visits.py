@@ -79,11 +79,11 @@ def values_of(
     """Let the step of a grid work on points, in all of its blocks or in those at some places, and
     return what it found; `Work.parts` have the numbers of the places of points, from 1 on.
     """
-    step = grid.step
+    step, has_values = grid.step, isinstance(grid.step, PointStep)
     work = Work(step, store or MemoryStore(grid.frame, grid.blocks, step.kind))
     for cloud in clouds:
         wanted = None
-        if places is not None and isinstance(step, PointStep):
+        if places is not None and has_values:
             work.parts.append((cloud.path, grid.numbers(cloud, places)))
             wanted = work.parts[-1][1] > 0
         work.add(cloud, wanted=wanted)
@@ -97,6 +97,8 @@ def values_of(
     try:
         (work.arrays,) = visited([work], resources, progress.part(0.1, 1.0), is_wanted)
     except NoGround as failure:
+        if not has_values:
+            raise
         work.failure = failure
     return work
 

@@ -28,7 +28,7 @@ from ..las.cloud import PointCloud, survey_frame
 from ..las.lasfile import LasFile
 from ..las.opening import open_las
 from ..remote.addresses import shown
-from ..remote.cache import AreaAround, bring_here, cache_of, look
+from ..remote.cache import AreaAround, cache_of, download, look
 from ..remote.fetching import Wanted
 from ..survey.area import Area
 from ..survey.files import Inputs, open_survey
@@ -302,7 +302,7 @@ def _files_of(block: Block, progress: Progress) -> dict[int, Path]:
         wanted = Wanted(AreaAround(block.window), most=work.most)
         advice = "Allow more, by the argument limit"
         with contextlib.suppress(Outside):
-            fetched = bring_here([*remote], wanted, cache_of(work.cache), advice, progress)
+            fetched = download([*remote], wanted, cache_of(work.cache), advice, progress)
             numbers = {shown(name): number for name, number in remote.items()}
             files.update((numbers[name], path) for path, name in fetched.paths.items())
     return files

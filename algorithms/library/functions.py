@@ -16,7 +16,7 @@ from ..filters import METHODS
 from ..tools.ground.method import TileMethod
 from .arguments import KINDS, REQUIRED, Argument, Kind
 from .given import extent_of
-from .remote_points import bring_points
+from .remote_points import with_downloaded_points
 
 PACKAGE = __name__.partition(".algorithms.")[0]
 _WIDTH = 92
@@ -160,7 +160,7 @@ class Function:
     def work(self, values: SimpleNamespace, sets: Sequence[ParameterSet]) -> Any:
         """Download points that are given by address, and run."""
         arguments = *self.positional, *self.keywords
-        with bring_points(arguments, values, sets, self.looks_around, self.classifies):
+        with with_downloaded_points(arguments, values, sets, self.looks_around, self.classifies):
             return self.run(values, sets)
 
     def callable(self, module: str = PACKAGE) -> Callable[..., Any]:

@@ -29,7 +29,7 @@ AROUND = 400.0
 SHARE = 0.5
 
 
-def bring_points(
+def with_downloaded_points(
     arguments: Sequence[Argument],
     values: SimpleNamespace,
     sets: Sequence[ParameterSet],
@@ -46,7 +46,7 @@ def bring_points(
     }
     if not any(map(is_remote, (source for sources in given.values() for source in sources))):
         return contextlib.nullcontext()
-    from ..remote.cache import AreaAround, addresses_named, bring_all, cache_of
+    from ..remote.cache import AreaAround, addresses_named, cache_of, download_all
     from ..remote.fetching import Wanted
     from ..tools.rasters.rows import RASTERS
 
@@ -66,7 +66,7 @@ def bring_points(
     wanted = Wanted(area, most=most_bytes(values), crs=crs, is_measured=bool(sets) and looks_around)
     progress = progress_of(values.progress)
     place = cache_of(values.cache), advice, progress.part(0.0, SHARE)
-    inputs, found = bring_all(given, wanted, *place)
+    inputs, found = download_all(given, wanted, *place)
     for name, here in inputs.items():
         setattr(values, name, here if here.is_survey else here[0])
     values.progress = progress.part(SHARE, 1.0)

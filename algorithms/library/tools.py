@@ -17,7 +17,7 @@ from ..engine.memory import Resources
 from ..engine.options import TileInput, TileOutput
 from ..survey.files import Inputs
 from ..tools import composition, file_tool, map_tool, point_tool
-from ..tools.declaration import POINTS, Input, ToFind, Tool
+from ..tools.declaration import POINTS, Automatic, Input, Tool
 from ..tools.input_groups import GROUPS
 from ..tools.listing import COMPOSITIONS, FILE_TOOLS, MAP_TOOLS, POINT_TOOLS
 from . import arguments, tool_commands
@@ -133,11 +133,11 @@ def input_of(declared: Input, values: SimpleNamespace) -> object:
         raise UsageError(f"Water is found in classified points: make the rasters with {how}.")
     if declared.kind in _READERS:
         given = _READERS[declared.kind](values)
-        return ToFind(given) if is_found else given
+        return Automatic(given) if is_found else given
     value = getattr(values, declared.name)
     if declared.kind == "polygons":
         if is_found:
-            return ToFind()
+            return Automatic()
         return declared.of(polygons_of(value, declared.may_be_empty))
     if declared.kind == "clouds":
         return Inputs(value)

@@ -53,7 +53,7 @@ def cache_of(folder: str | Path | None) -> Path:
     return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache", "bare-earth")
 
 
-def bring_here(
+def download(
     addresses: Sequence[str], wanted: Wanted, cache: Path, advice: str, progress: Progress
 ) -> Here:
     """Return local files with the wanted parts of addresses, after a download of those that the
@@ -77,7 +77,7 @@ def bring_here(
             check_size([part for _, part in parts], wanted.most, advice, progress)
         shares = progress.part(0.1, 1.0).shares(*(part.point_count for _, part in parts))
         for (cloud, part), share in zip(parts, shares):
-            cloud.bring(part, share)
+            cloud.download(part, share)
     found = [cloud for cloud in kept if cloud.is_here]
     if not found:
         raise nothing_there([part for _, part in planned], addresses[0])
@@ -97,7 +97,7 @@ def _check_lengths(part: CloudPart, crs: Crs) -> None:
         ) from error
 
 
-def bring_all(
+def download_all(
     given: Mapping[str, Sequence[str | Path]],
     wanted: Wanted,
     cache: Path,
@@ -112,7 +112,7 @@ def bring_all(
     for (name, sources), share in zip(given.items(), shares):
         addresses = [str(source) for source in sources if is_address(str(source))]
         if addresses:
-            here = bring_here(addresses, wanted, cache, advice, share)
+            here = download(addresses, wanted, cache, advice, share)
             found.update(here.paths)
             paths = [*here.paths, *(source for source in sources if source not in addresses)]
             # A list is a survey, however many of its files have points in the area.

@@ -114,7 +114,7 @@ class CachedPart:
             return CopcPart(file, wanted.area, wanted.resolution, progress)
         return WholePart(file, wanted.area, progress)
 
-    def bring(self, part: CloudPart, progress: Progress) -> None:
+    def download(self, part: CloudPart, progress: Progress) -> None:
         """Download and write a part, unless another run has done this meanwhile."""
         with one_at_a_time(self._lock, lambda: progress(0.0)):
             self.is_here = self._is_certain and self._is_sound()

@@ -58,8 +58,8 @@ class Input:
     may_be_empty: bool = False  # whether a file or a layer of polygons may contain none
     # The result of the last run that a dialog shows first; inputs with one belong to one run.
     made_as: str = ""
-    # Returns the value in place of `ToFind`, which stands for polygons that the user leaves out, or
-    # for the word automatic. Its arguments: the files, which points are ground, the progress.
+    # Returns the value in place of `Automatic`, which stands for polygons that the user leaves out,
+    # or for the word automatic, given the files, which points are ground, and the progress.
     found: Callable[[Inputs, GroundClasses, Progress], Any] | None = None
 
     @property
@@ -68,7 +68,7 @@ class Input:
         return self.named or self.name.upper()
 
 
-class ToFind(NamedTuple):
+class Automatic(NamedTuple):
     """Stands for the value of an input that `Input.found` returns before the work."""
 
     given: Any = None  # the `Constraints` of the user, to which the value is added

@@ -22,7 +22,7 @@ from ..remote.addresses import is_address
 from ..survey.files import Inputs
 from ..survey.outputs import check_outputs, place
 from . import file_tool
-from .declaration import FileTool, MapTool, Output, PointTool, ToFind, Tool
+from .declaration import Automatic, FileTool, MapTool, Output, PointTool, Tool
 
 if TYPE_CHECKING:
     from ..engine.workers import Workers
@@ -63,7 +63,7 @@ def _run_on_points(
     points = Inputs(inputs["input"]).read_as(inputs.get("crs"), TileInput.among(sets).recursive)
     sets = [values for values in sets if points.is_survey or not values.only_for_many]
     check_outputs(_kinds(tool, points, outputs), points)
-    inputs, progress = _with_found_inputs(tool, {**inputs, "input": points}, sets, progress)
+    inputs, progress = _resolve_automatic_inputs(tool, {**inputs, "input": points}, sets, progress)
     drawings = [output for output in tool.all_outputs if output.drawn_by and output.name in outputs]
     working, *drawing = progress.shares(9.0, *(1.0 for _ in drawings)) if drawings else [progress]
     with contextlib.ExitStack() as opened:
@@ -130,14 +130,14 @@ def _kinds(tool: Tool, points: Inputs, outputs: Mapping[str, Path]) -> Iterator[
             yield kinds[name], path
 
 
-def _with_found_inputs(
+def _resolve_automatic_inputs(
     tool: Tool, inputs: dict[str, Any], sets: Sequence[ParameterSet], progress: Progress
 ) -> tuple[dict[str, Any], Progress]:
-    """Return the inputs with the values in place of `ToFind`, and the rest of the progress."""
+    """Return the inputs with the values in place of `Automatic`, and the rest of the progress."""
     progress = progress.once()  # the points are opened to find something, and for the run
     for declared in tool.inputs:
         value = inputs.get(declared.name)
-        if isinstance(value, ToFind) and declared.found is not None:
+        if isinstance(value, Automatic) and declared.found is not None:
             ground, part = GroundClasses.among(sets), progress.part(0.0, 0.4)
             found = declared.found(inputs["input"], ground, part)  # this can take minutes
             if value.given is not None:

@@ -23,7 +23,7 @@ from ...algorithms.core.progress import SILENT, Progress
 from ...algorithms.rasters.cell_grid import RasterTarget
 from ...algorithms.survey.area import Area
 from ...algorithms.survey.vector_files import ANSWER_FIELD, CLASS_FIELD, name_among, value_of
-from ...algorithms.tools.declaration import Input, ToFind, with_note
+from ...algorithms.tools.declaration import Automatic, Input, with_note
 from ...algorithms.tools.input_groups import GROUPS
 from ...algorithms.tools.rasters.constraints import Constraints
 from .. import compat
@@ -344,7 +344,7 @@ def _polygons(request: Request, declared: Input) -> GivenInput:
     if declared.optional and request.is_empty(declared):
         return GivenInput(declared.of(()))
     if declared.found and request.is_empty(declared):
-        return GivenInput(ToFind(), {declared.name: "automatic"})
+        return GivenInput(Automatic(), {declared.name: "automatic"})
     algorithm, parameters, context, progress = request
     file = request.file_in(declared.field_name)
     if not file:

@@ -202,7 +202,7 @@ class ToolAlgorithm(BareEarthAlgorithm):
             return
         # Imported here, so that QGIS starts faster.
         from ...algorithms.library.remote_points import SHARE, margin_of, stated_crs
-        from ...algorithms.remote.cache import AreaAround, bring_all, cache_of
+        from ...algorithms.remote.cache import AreaAround, cache_of, download_all
         from ...algorithms.remote.fetching import Wanted
 
         # Without a field for an area, the downloaded part is all that is used.
@@ -223,7 +223,7 @@ class ToolAlgorithm(BareEarthAlgorithm):
             for name, found in far.items()
         }
         place = cache_of(None), _ADVICE, progress.before(SHARE)
-        here, found_at = bring_all(sources, wanted, *place)
+        here, found_at = download_all(sources, wanted, *place)
         self.brought.update(found_at)
         for name, paths in here.items():
             is_one = next(one.kind == "cloud" for one in self._inputs if one.name == name)
