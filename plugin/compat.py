@@ -9,7 +9,6 @@ from qgis.core import (
     QgsLineSymbol,
     QgsMapLayerProxyModel,
     QgsProcessing,
-    QgsProcessingAlgorithm,
     QgsProcessingContext,
     QgsProcessingParameterDefinition,
     QgsProcessingParameterFile,
@@ -76,6 +75,8 @@ else:
 
 # Since QGIS 3.26.
 HAS_POINT_CLOUD_OUTPUTS = hasattr(core, "QgsProcessingParameterPointCloudDestination")
+# What reads the value of a field of `point_cloud_output`: parameterAsOutputLayer, or ...FileOutput.
+POINT_CLOUD_OUTPUT = "OutputLayer" if HAS_POINT_CLOUD_OUTPUTS else "FileOutput"
 
 
 def is_null(value: object) -> bool:
@@ -129,18 +130,6 @@ def point_cloud_output(
         tr("{} files (*.{})").format(ending.upper(), ending) for ending in extensions
     )
     return QgsProcessingParameterFileDestination(name, label, filters)
-
-
-def point_cloud_output_path(
-    algorithm: QgsProcessingAlgorithm,
-    parameters: dict[str, object],
-    name: str,
-    context: QgsProcessingContext,
-) -> str:
-    """Return the path that the user chose for an output of `point_cloud_output`."""
-    if HAS_POINT_CLOUD_OUTPUTS:
-        return algorithm.parameterAsOutputLayer(parameters, name, context)
-    return algorithm.parameterAsFileOutput(parameters, name, context)
 
 
 def place_on_line(settings: core.QgsPalLayerSettings) -> None:

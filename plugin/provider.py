@@ -11,12 +11,12 @@ from qgis.PyQt.QtGui import QIcon
 from .. import __version__
 from ..algorithms.core.words import Keywords, use_names
 from ..algorithms.survey.feature_files import FORMATS
+from ..algorithms.tools import composition
 from .i18n import tr
+from .processing.algorithm import ToolAlgorithm, tool_algorithms
 from .processing.compositions import CompositionAlgorithm
-from .processing.maps import map_algorithms
 from .processing.models import shipped_models
 from .processing.outputs import point_cloud_formats
-from .processing.tools import ToolAlgorithm, tool_algorithms
 
 ICON = Path(__file__).parent / "icons" / "bare_earth.svg"
 
@@ -86,7 +86,7 @@ class BareEarthProvider(QgsProcessingProvider):
     def loadAlgorithms(self) -> None:
         """Add an instance of each algorithm, and the models of the plugin."""
         self._models = shipped_models()
-        own = [CompositionAlgorithm(), *map_algorithms(), *tool_algorithms()]
+        own = [CompositionAlgorithm(composition("deliver")), *tool_algorithms()]
         names = Fields(own)
         use_names(names)  # the helps name other tools
         for algorithm in [*own, *self._models]:

@@ -68,7 +68,7 @@ def asked_texts() -> set[str]:
     provider = QgsApplication.processingRegistry().providerById("bareearth")
     for algorithm in provider.algorithms():
         visible_texts(algorithm.create())
-        i18n.tr(getattr(algorithm, "run_name", ""))  # of a group of layers
+        i18n.tr(algorithm.tool.run_name if hasattr(algorithm, "tool") else "")  # of layers
     QCoreApplication.removeTranslator(recorder)
     return asked
 

@@ -9,6 +9,7 @@ from typing import Any, Callable, Mapping, NamedTuple, Sequence
 from ..classes.ground_classes import GroundClasses
 from ..core.parameters import ParameterSet
 from ..core.progress import Progress
+from ..engine.memory import Resources
 from ..engine.step import PointStep, Step
 from ..survey.files import Inputs
 from .listing import listed
@@ -239,6 +240,11 @@ class PointTool(Tool):
     output_help: str = ""
     shows: str = "classes"  # how QGIS shows the output: "classes", "key points" or "heights"
     writes_points = True
+
+    @property
+    def sets_of_dialog(self) -> tuple[type[ParameterSet], ...]:
+        """The parameter sets in the order of the dialog, and threads and memory."""
+        return (*super().sets_of_dialog, Resources)
 
     @property
     def all_inputs(self) -> tuple[Input, ...]:

@@ -11,7 +11,6 @@ from qgis.core import (
     QgsFeature,
     QgsMultiPoint,
     QgsPoint,
-    QgsProcessingAlgorithm,
     QgsProcessingContext,
     QgsProcessingFeatureSourceDefinition,
     QgsProcessingParameterFeatureSource,
@@ -21,15 +20,16 @@ from qgis.core import (
 )
 
 from ...algorithms.core.errors import BareEarthError
-from ...algorithms.core.progress import Progress
 from ...algorithms.tools.check.checkpoints import Checkpoints
 from ...algorithms.tools.check.reading import CheckpointRow, checkpoints_of_rows, read_checkpoints
 from ...algorithms.tools.check.tables import SUFFIXES, read_table
 from .. import compat
 from ..i18n import mark, tr
 from ..styles.loaded import filter_of, has_edits
+from .cloud_crs import CloudCrs
 from .feedback import Refusal
-from .inputs import CloudCrs, features_of
+from .request import Request
+from .shapes import features_of
 
 _LAYER = "CHECKPOINTS"
 # The roles of attributes, by their fields.
@@ -55,34 +55,25 @@ class CheckpointInput(QgsProcessingParameterFeatureSource):
         return f"{tr('Tables')} ({endings});;{super().createFileFilter()}"
 
 
-def checkpoints_of(
-    algorithm: QgsProcessingAlgorithm,
-    parameters: dict[str, object],
-    context: QgsProcessingContext,
-    crs: CloudCrs,
-    progress: Progress,
-) -> tuple[Checkpoints | None, dict[str, str]]:
+def checkpoints_of(request: Request, crs: CloudCrs) -> tuple[Checkpoints | None, dict[str, str]]:
     """Return the checkpoints in the CRS of the points, and the options for the command line; a
     message says how to give a layer there.
     """
-    if compat.is_empty(parameters.get(_LAYER)):
+    if request.is_empty(_LAYER):
         return None, {}
-    chosen = {
-        role: name
-        for field, role in _ROLES.items()
-        if (name := algorithm.parameterAsString(parameters, field, context))
-    }
+    named = ((role, request.read("String", field)) for field, role in _ROLES.items())
+    chosen = {role: name for role, name in named if name}
     columns = ",".join(f"{role}={name}" for role, name in chosen.items())
-    path = _table_of(parameters[_LAYER], context)
+    path = _table_of(request.parameters[_LAYER], request.context)
     if path is not None:
         return read_checkpoints(path, columns), {"checkpoints": str(path), "columns": columns}
-    progress.info(
+    request.progress.info(
         "In the command line the checkpoints are missing: save them as checkpoints.gpkg, and add"
         " --checkpoints checkpoints.gpkg."
     )
-    source = algorithm.parameterAsSource(parameters, _LAYER, context)
+    source = request.read("Source", _LAYER)
     names = source.fields().names() if source is not None else []
-    features = features_of(source, "Checkpoints", crs.value, context, names)
+    features = features_of(source, "Checkpoints", crs.value, request, names)
     is_table = source is not None and source.wkbType() == compat.NO_GEOMETRY
     records = [
         _record(number, feature, names, is_table)

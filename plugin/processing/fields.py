@@ -5,8 +5,6 @@ from __future__ import annotations
 import re
 
 from qgis.core import (
-    QgsProcessingAlgorithm,
-    QgsProcessingContext,
     QgsProcessingParameterBoolean,
     QgsProcessingParameterDefinition,
     QgsProcessingParameterNumber,
@@ -18,6 +16,7 @@ from .. import compat
 from ..i18n import mark, tr
 from .choices import OFF, ON, ChoiceParameter, value_of, values_of, with_labels
 from .feedback import Refusal
+from .request import Request
 
 # As a name, so that the widget is imported only in dialogs, not in qgis_process.
 _CHECK_WIDGET = f"{__package__}.widgets.CheckWidget"
@@ -112,64 +111,46 @@ def help_of(declaration: Declaration) -> str:
     return f"{declaration.help} In scripts: {'; '.join(names)}."
 
 
-def parameters_of(
-    algorithm: QgsProcessingAlgorithm,
-    declared: type[ParameterSet],
-    parameters: dict[str, object],
-    context: QgsProcessingContext,
-) -> ParameterSet:
+def parameters_of(request: Request, declared: type[ParameterSet]) -> ParameterSet:
     """Return the declared parameters with the values of the user, if these are allowed."""
-    return declared(
-        **{
-            parameter.name: _value(algorithm, parameter, parameters, context)
-            for parameter in declared.declarations()
-        }
-    )
+    return declared(**{one.name: _value(request, one) for one in declared.declarations()})
 
 
-def _value(
-    algorithm: QgsProcessingAlgorithm,
-    declaration: Declaration,
-    parameters: dict[str, object],
-    context: QgsProcessingContext,
-) -> object:
+def _value(request: Request, declaration: Declaration) -> object:
     name = declaration.name.upper()
-    given = parameters.get(name)
+    given = request.parameters.get(name)
     if declaration.kind == "boolean":
-        if not isinstance(algorithm.parameterDefinition(name), ChoiceParameter):
-            return algorithm.parameterAsBool(parameters, name, context)
+        if not isinstance(request.algorithm.parameterDefinition(name), ChoiceParameter):
+            return request.read("Bool", name)
         given = value_of("" if compat.is_empty(given) else given, [OFF, ON])
         return given in (ON, True) if given != "" else declaration.default
-    if name in parameters and (compat.is_null(given) or given == ""):
-        # The user emptied the field; parameterAs... would return the default.
-        return None if declaration.optional else _default_of(declaration)
+    if name in request.parameters and (compat.is_null(given) or given == ""):
+        # The user emptied the field; parameterAs... would return the default. An emptied field that
+        # must have a value is refused, but for those that can be newer than a saved model.
+        has_default = declaration.kind == "choice" or declaration.advanced
+        return declaration.default if has_default and not declaration.optional else None
     if declaration.kind == "choice":
         if isinstance(given, (str, int)):
             return value_of(given, list(declaration.choices))
-        chosen = algorithm.parameterAsEnumString(parameters, name, context)
+        chosen = request.read("EnumString", name)
         return chosen or (None if declaration.optional else declaration.default)
     if declaration.kind == "choices":
         if isinstance(given, (str, list, tuple)):
             return values_of(given, list(declaration.choices))
-        return algorithm.parameterAsEnumStrings(parameters, name, context)
+        return request.read("EnumStrings", name)
     if declaration.kind in _LISTS:
         if isinstance(given, (list, tuple)):
             return given
-        text = algorithm.parameterAsString(parameters, name, context)
-        return re.split(r"[\s,;]+", text.strip()) if text.strip() else None
-    if name not in parameters:
+        text = request.read("String", name).strip()
+        return re.split(r"[\s,;]+", text) if text else None
+    if name not in request.parameters:
         return declaration.default
     if isinstance(given, str) and not _is_number(given):
         # parameterAsDouble would silently return the default.
         text = mark("{label} must be a number, not {value}.")
         raise Refusal(text, label=declaration.label, value=repr(given))
     # Also for integers as a double, so that 2.5 is refused and does not become 2.
-    return algorithm.parameterAsDouble(parameters, name, context)
-
-
-def _default_of(declaration: Declaration) -> object:
-    """Return what an emptied field means that must have a value; None to refuse it."""
-    return declaration.default if declaration.kind == "choice" or declaration.advanced else None
+    return request.read("Double", name)
 
 
 def _is_number(text: str) -> bool:

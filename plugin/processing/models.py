@@ -24,13 +24,13 @@ from ..styles import layers
 from ..styles.loaded import fresh_path
 from ..styles.metadata import Origin, settings_of
 from ..styles.stage import LayerStage
-from .base import BareEarthAlgorithm, errors_for_qgis, words_in
+from .algorithm import ToolAlgorithm, errors_for_qgis, words_in
 from .choices import ChoiceParameter, with_labels
 from .feedback import tell_of_unknown
 from .fields import help_of
 from .inputs import name_of
-from .output_checks import check_outputs
-from .outputs import do_not_load, is_blank, places_of
+from .outputs import check_outputs, do_not_load, is_blank, places_of
+from .request import Request
 
 _CHOICES = {declared.name.upper(): declared for declared in TileMethod.declarations()}
 # Names of outputs in the models that make a classified cloud or contour lines.
@@ -52,8 +52,8 @@ class ShippedModel(QgsProcessingModelAlgorithm):
 
     page = "command-line#models"
     # The same methods as in the other algorithms.
-    helpUrl = BareEarthAlgorithm.helpUrl
-    shortHelpString = BareEarthAlgorithm.shortHelpString
+    helpUrl = ToolAlgorithm.helpUrl
+    shortHelpString = ToolAlgorithm.shortHelpString
 
     def __init__(self, file: Path) -> None:
         super().__init__()
@@ -115,7 +115,7 @@ class ShippedModel(QgsProcessingModelAlgorithm):
         if possible:
             try:
                 source = Path(self.parameterAsFile(parameters, "INPUT", context))
-                check_outputs(self, parameters, context, Inputs(source))
+                check_outputs(Request(self, parameters, context), Inputs(source))
             except BareEarthError as error:
                 possible, text = False, str(error)
         return possible, text
@@ -129,7 +129,7 @@ class ShippedModel(QgsProcessingModelAlgorithm):
         """Name the layers and their group after the input."""
         self._subject = name_of(Path(self.parameterAsFile(parameters, "INPUT", context)))
         self._settings = settings_of(self, parameters, context)
-        group, places = self.displayName(), places_of(self, parameters, context)
+        group, places = self.displayName(), places_of(Request(self, parameters, context))
         with errors_for_qgis():
             self._stage = LayerStage(context, f"{self._subject}: {group}", places, is_in_place=True)
         return super().prepareAlgorithm(parameters, context, feedback)
@@ -146,7 +146,7 @@ class ShippedModel(QgsProcessingModelAlgorithm):
         given = {**defaults, **parameters}
         for field in self.destinationParameterDefinitions():
             name = field.name()
-            if is_blank(given, name, context):
+            if is_blank(Request(self, given, context), name):
                 del given[name]  # steps make what is left empty
                 given.update({name: defaults[name]} if name in self._needed else {})
         results: dict[str, object] = {}

@@ -3,86 +3,134 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Iterable, Mapping
+from typing import Iterable
 
 from qgis.core import (
     QgsProcessing,
-    QgsProcessingAlgorithm,
     QgsProcessingContext,
     QgsProcessingFeedback,
     QgsProcessingOutputLayerDefinition,
+    QgsProcessingParameterDefinition,
+    QgsProcessingParameterFileDestination,
+    QgsProcessingParameterFolderDestination,
+    QgsProcessingParameterRasterDestination,
+    QgsProcessingParameterVectorDestination,
     QgsProperty,
 )
 
+from ...algorithms.core.errors import OutputInUse
 from ...algorithms.core.files import split_name
 from ...algorithms.las.backends import WRITING_COPC, missing_packages
 from ...algorithms.rasters.virtual import virtual_of
+from ...algorithms.survey.feature_files import FORMATS
 from ...algorithms.survey.files import Inputs
-from ...algorithms.tools.rasters.parameters import RasterOutput
+from ...algorithms.survey.outputs import check_kind
+from ...algorithms.survey.vpc import SUFFIX
+from ...algorithms.tools.declaration import Output
 from .. import compat
+from ..i18n import mark, tr
+from ..styles import loaded
+from .feedback import Refusal
+from .request import Request
 
 _OF_MODELS = "QgsProcessingMultiStepFeedback"
-NOTHING_STAYS = "Cancelled; nothing was written."
-TILES_STAY = "Cancelled. The finished tiles stay, and a later run can continue with them."
 
 
-def after_cancel(inputs: Inputs) -> str:
-    """Return the message in the log after a cancel, for one file or for many."""
-    return TILES_STAY if inputs.is_survey else NOTHING_STAYS
+def field_of_output(output: Output) -> QgsProcessingParameterDefinition:
+    """Return the field of an output."""
+    name, label = output.field_name, output.label
+    optional, by_default = output.optional and not output.is_main, output.by_default
+    if output.kind in ("cloud", "points"):
+        field = compat.point_cloud_output(name, label, point_cloud_formats())
+        field.setFlags(field.flags() | compat.OPTIONAL if optional else field.flags())
+    elif output.kind == "raster":
+        field = QgsProcessingParameterRasterDestination(name, label, None, optional, by_default)
+    elif output.kind == "folder":
+        field = QgsProcessingParameterFolderDestination(name, label, None, optional, by_default)
+    elif output.kind == "features":
+        field = QgsProcessingParameterVectorDestination(
+            name, label, optional=optional, createByDefault=by_default
+        )
+    else:
+        is_list = output.kind == "list"
+        filters = (
+            tr("{} files (*.{})").format("VPC", "vpc") if is_list else tr("HTML files (*.html)")
+        )
+        file = name, label, filters, None, optional, by_default
+        field = QgsProcessingParameterFileDestination(*file)
+    if output.advanced:  # QGIS shows it below the other outputs: it folds only inputs away
+        field.setFlags(field.flags() | compat.ADVANCED)
+    return field
 
 
-def given_path(value: object, context: QgsProcessingContext) -> Path | None:
+def given_path(request: Request, name: str) -> Path | None:
     """Return the path that the user gave for an output; None if QGIS makes one up, or for none."""
-    value = _given(value, context)
+    value = _given(request, name)
     if compat.is_empty(value) or value == QgsProcessing.TEMPORARY_OUTPUT:
         return None
     return Path(value) if isinstance(value, (str, Path)) else None
 
 
-def is_blank(parameters: Mapping[str, object], name: str, context: QgsProcessingContext) -> bool:
+def is_blank(request: Request, name: str) -> bool:
     """Return whether the user left an output empty, as tables of batch runs do with text."""
-    return name in parameters and bool(compat.is_empty(_given(parameters[name], context)))
+    return name in request.parameters and bool(compat.is_empty(_given(request, name)))
 
 
-def with_outputs_of_step(
-    algorithm: QgsProcessingAlgorithm,
-    parameters: dict[str, object],
-    context: QgsProcessingContext,
-    feedback: QgsProcessingFeedback,
-) -> dict[str, object]:
-    """Return the parameters of a step of a model with temporary files for outputs that the user
-    left empty; those of other runs as they are.
+def _given(request: Request, name: str) -> object:
+    """Return the text in the value of an output."""
+    value = request.parameters.get(name)
+    if isinstance(value, QgsProcessingOutputLayerDefinition):
+        value = value.sink
+    if isinstance(value, QgsProperty):
+        value, _ = value.valueAsString(request.context.expressionContext(), "")
+    return value
+
+
+def with_outputs_of_step(request: Request, feedback: QgsProcessingFeedback) -> Request:
+    """Return the request of a step of a model with temporary files for outputs that the user left
+    empty; those of other runs as they are.
     """
     # A model has an output in the parameters of a step if a later step may read it. QGIS makes a
     # temporary file of it only if it is no output of the model.
     if not feedback.inherits(_OF_MODELS):
-        return parameters
+        return request
     made = {
         output.name(): output.generateTemporaryDestination()
-        for output in algorithm.destinationParameterDefinitions()
-        if is_blank(parameters, output.name(), context)
+        for output in request.algorithm.destinationParameterDefinitions()
+        if is_blank(request, output.name())
     }
-    return {**parameters, **made}
+    return request._replace(parameters={**request.parameters, **made})
 
 
-def _given(value: object, context: QgsProcessingContext) -> object:
-    """Return the text in the value of an output."""
-    if isinstance(value, QgsProcessingOutputLayerDefinition):
-        value = value.sink
-    if isinstance(value, QgsProperty):
-        value, _ = value.valueAsString(context.expressionContext(), "")
-    return value
+def check_outputs(request: Request, sources: Inputs) -> None:
+    """Refuse, as the run would, files in missing folders or with unsuitable names or endings."""
+    for output in request.algorithm.destinationParameterDefinitions():
+        path = given_path(request, output.name())
+        if path is None:
+            continue
+        try:
+            check_kind(_kind_of(output, sources), path, sources)
+        except OutputInUse:
+            # Layers let go of their files before the run, which asks again.
+            is_main = loaded.in_main_thread()
+            if not is_main or not loaded.sources_of(request.context.project(), [path]):
+                raise
 
 
-def places_of(
-    algorithm: QgsProcessingAlgorithm,
-    parameters: dict[str, object],
-    context: QgsProcessingContext,
-) -> list[Path]:
+def _kind_of(output: QgsProcessingParameterDefinition, sources: Inputs) -> str:
+    """Return the kind of an output."""
+    if isinstance(output, QgsProcessingParameterFolderDestination):
+        return "folder"
+    ending = f".{output.defaultFileExtension()}"
+    kinds = {".html": "page", ".tif": "raster", SUFFIX: "list"}
+    return "features" if ending in FORMATS else kinds.get(ending, sources.output_kind)
+
+
+def places_of(request: Request) -> list[Path]:
     """Return the files and folders that the user chose for outputs, and what is made of them."""
     places = []
-    for output in algorithm.destinationParameterDefinitions():
-        path = given_path(parameters.get(output.name()), context)
+    for output in request.algorithm.destinationParameterDefinitions():
+        path = given_path(request, output.name())
         if path is not None:
             # Many files become a folder, and a virtual raster.
             places += [path, virtual_of(path), path.with_name(split_name(path)[0])]
@@ -90,24 +138,31 @@ def places_of(
     return places
 
 
+def path_of(request: Request, output: Output) -> str:
+    """Return the path of an output that is not a point cloud; empty if the user leaves it out."""
+    # QGIS would make a layer of an empty path, and say after the run that it is not there.
+    if is_blank(request, output.field_name):
+        return ""
+    is_layer = output.kind in ("raster", "features")
+    return str(request.read("OutputLayer" if is_layer else "FileOutput", output.field_name))
+
+
+def cloud_path_of(request: Request, name: str) -> str:
+    """Return the path of an output point cloud; do not load it if QGIS cannot show it."""
+    path = ""
+    if not is_blank(request, name):
+        path = request.read(compat.POINT_CLOUD_OUTPUT, name)
+    field = request.algorithm.parameterDefinition(name)
+    if not path and not field.flags() & compat.OPTIONAL:
+        raise Refusal(mark("Choose a file: {}."), field.description())
+    if not compat.can_load(path):
+        do_not_load(request.context, [path])
+    return path
+
+
 def class_raster_of(cloud: Path) -> Path:
     """Return the raster that shows the classes of a cloud that QGIS cannot show."""
     return cloud.with_name(f"{split_name(cloud)[0]}_classes.tif")
-
-
-def shown_rasters(
-    paths: dict[str, str], output: RasterOutput, context: QgsProcessingContext
-) -> dict[str, str]:
-    """Return the rasters of many files that QGIS will load: the virtual rasters, if they exist."""
-    if not output.raster_per_file:
-        return paths
-    layers = context.layersToLoadOnCompletion()
-    found = {name: str(virtual_of(Path(path))) for name, path in paths.items()}
-    for name, path in paths.items():
-        if path in layers:
-            layers[found[name]] = layers.pop(path)
-    context.setLayersToLoadOnCompletion(layers)
-    return found
 
 
 def point_cloud_formats() -> list[str]:

@@ -1,198 +1,200 @@
-"""The fields for the inputs of tools that work on files, by the kinds of the inputs."""
+"""The kinds of inputs: which fields they have in a dialog, and how and when these are read."""
 
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
-from types import MappingProxyType
-from typing import Any, Callable, NamedTuple, Sequence
+from typing import Any, Callable, Iterator, NamedTuple, Sequence
 
 from qgis.core import (
-    QgsProcessingContext,
     QgsProcessingParameterCrs,
-    QgsProcessingParameterDefinition,
     QgsProcessingParameterExtent,
     QgsProcessingParameterFeatureSource,
     QgsProcessingParameterField,
+    QgsProcessingParameterFile,
+    QgsProcessingParameterMultipleLayers,
     QgsProcessingParameterRasterLayer,
     QgsProcessingParameterString,
 )
+from qgis.core import (
+    QgsProcessingParameterDefinition as Field,
+)
 
 from ...algorithms.classes.corrections import NO_CORRECTIONS, Corrections, plain_values
-from ...algorithms.core.progress import SILENT, Progress
 from ...algorithms.rasters.cell_grid import RasterTarget
-from ...algorithms.survey.area import Area
+from ...algorithms.remote.addresses import shown
 from ...algorithms.survey.vector_files import ANSWER_FIELD, CLASS_FIELD, name_among, value_of
-from ...algorithms.tools.declaration import Automatic, Input, with_note
+from ...algorithms.tools.declaration import Automatic, Input, help_of_area, with_note
 from ...algorithms.tools.input_groups import GROUPS
 from ...algorithms.tools.rasters.constraints import Constraints
 from .. import compat
 from ..i18n import mark
-from .area import add_area, area_in_own_crs, area_of, area_options
-from .base import BareEarthAlgorithm, Options
 from .checkpoints import CheckpointInput, checkpoints_of
 from .feedback import Refusal
 from .inputs import (
-    ANY_CLOUD_HELP,
-    CLOUD_HELP,
-    CloudCrs,
     PointCloudInput,
     SurveyInput,
     TerrainInput,
-    add_clouds,
-    add_survey,
-    box_of,
     clouds_of,
-    layer_shapes,
+    local,
     names_of,
     raster_of,
     source_of,
     survey_of,
     terrain_of,
-    words_of,
 )
-from .layer_files import file_for_command
-from .remote import LAYER_HELP, Remote
+from .remote import ADDRESS_HELP, ALSO_REMOTE, LAYER_HELP, REMOTE, Remote
+from .request import GivenInput, Request, Resolved
 from .runs import MADE_AS
-from .stated_crs import text_of
+from .shapes import BOUNDARY, area_of, box_of, file_for_command, layer_shapes
 
 # As names, so that widgets are imported only in dialogs, not in qgis_process.
 _ATTRIBUTE_WIDGET = f"{__package__}.attribute_widget.AttributeWidget"
 _RASTER_WIDGET = f"{__package__}.layer_widgets.RasterWidget"
-# Errors for rasters that are not files, by the names of their inputs.
-_NO_FILES = {
-    "source": mark("The elevation raster is not a file. Export it as GeoTIFF first."),
-    "dtm": mark("The terrain model is not a file. Export it as GeoTIFF first."),
-    "expected_error": mark("The expected error is not a file. Export it as GeoTIFF first."),
-}
-_NO_FILE = mark("{} is not a file. Export it as GeoTIFF first.")
 _LAYERS = {"lines": compat.LINES, "polygons": compat.POLYGONS}
 # Default and layer of the fields for attributes.
 _ATTRIBUTES = {
     "CORRECTIONS_FIELD": (CLASS_FIELD, "CORRECTIONS"), "Z_FIELD": (None, "CHECKPOINTS"),
     "COVER_FIELD": (None, "CHECKPOINTS"), "NAME_FIELD": (None, "CHECKPOINTS"),
 }  # fmt: skip
+# Errors for rasters that are not files, by the names of their inputs.
+_NO_FILES = {
+    "source": mark("The elevation raster is not a file. Export it as GeoTIFF first."),
+    "dtm": mark("The terrain model is not a file. Export it as GeoTIFF first."),
+    "expected_error": mark("The expected error is not a file. Export it as GeoTIFF first."),
+    "like": mark("The raster with the grid to use is not a file. Export it as GeoTIFF first."),
+}
+_NO_FILE = mark("{} is not a file. Export it as GeoTIFF first.")
+_FILES_HELP = (
+    ".las, .laz and .copc.laz files, virtual point clouds (.vpc), or text files (.txt) with one"
+    " path in each line. May stay empty if a folder is given."
+)
+_FOLDER_HELP = (
+    "All .las, .laz and .copc.laz files in this folder are used, too. All files together are one"
+    " survey, without seams."
+)
+_SURVEY_HELP = (
+    "A point cloud layer, a .las, .laz or .copc.laz file, a virtual point cloud (.vpc), or a text"
+    " file (.txt) with one path in each line. May stay empty if a folder is given."
+    f"{ALSO_REMOTE}"
+)
+_CLOUD_HELP = f"A point cloud layer, or a .las, .laz or .copc.laz file.{ALSO_REMOTE}"
+_POINTS_HELP = "They are of any CRS, or a table (.csv, .txt, .xyz) in the CRS of the points."
+_ANY_CLOUD_HELP = (
+    "A point cloud layer, or a .las, .laz or .copc.laz file; also a virtual point cloud (.vpc) or a"
+    f" folder.{ALSO_REMOTE}"
+)
+
+Fields = Iterator[tuple[Field, str]]  # each with its help
 
 
-class GivenInput(NamedTuple):
-    """The value of an input in a dialog."""
-
-    value: object  # as the tool gets it; None for an empty field
-    options: Options = MappingProxyType({})  # of the command line
-    # Of an input that the command needs: its words, files and name.
-    arguments: tuple[str, ...] = ()
-    paths: tuple[Path, ...] = ()
-    name: str = ""
-    remotes: tuple[Remote, ...] = ()  # point clouds that are not on this computer
+# The fields.
 
 
-class Request(NamedTuple):
-    """A dialog with the values of its fields."""
-
-    algorithm: BareEarthAlgorithm
-    parameters: dict[str, object]
-    context: QgsProcessingContext
-    progress: Progress = SILENT
-
-    def is_empty(self, declared: Input) -> bool:
-        """Return whether the field of an input is empty."""
-        return bool(compat.is_empty(self.parameters.get(declared.field_name)))
-
-    def file_in(self, name: str) -> str:
-        """Return the file of the layer in a field, for the command line; see `file_for_command`."""
-        return file_for_command(self.algorithm, self.parameters, name, self.context)
+def _advanced(field: Field) -> Field:
+    field.setFlags(field.flags() | compat.ADVANCED)
+    return field
 
 
-def add_input(algorithm: BareEarthAlgorithm, declared: Input) -> None:
-    """Add the field, or the fields, of an input to a dialog."""
-    name, label = declared.field_name, declared.label
-    if declared.kind in _GROUPS:
-        _GROUPS[declared.kind](algorithm)
-        return
-    if declared.kind == "area":
-        add_area(algorithm, declared)
-        return
-    if declared.kind in GROUPS:
-        for part in GROUPS[declared.kind]:
-            if part.label:
-                add_input(algorithm, replace(part, advanced=part.advanced or declared.advanced))
-        return
-    makers: dict[str, Callable[[], QgsProcessingParameterDefinition]] = {
-        "cloud": lambda: (
-            SurveyInput(name, label, None, True)
-            if declared.optional
-            else PointCloudInput(name, label)
-        ),
-        "clouds": lambda: SurveyInput(name, label),
-        "address": lambda: PointCloudInput(name, label),
-        "raster": lambda: QgsProcessingParameterRasterLayer(name, label, None, declared.optional),
-        "terrain": lambda: TerrainInput(name, label),
-        "crs": lambda: QgsProcessingParameterCrs(name, label, None, True),
-        "extent": lambda: QgsProcessingParameterExtent(name, label, None, True),
-        "words": lambda: QgsProcessingParameterString(name, label, None, False, True),
-        "attribute": lambda: QgsProcessingParameterField(
-            name, label, *_ATTRIBUTES[name], optional=True
-        ),
-    }
-    helps = {
-        "cloud": CLOUD_HELP, "clouds": ANY_CLOUD_HELP, "address": LAYER_HELP,
-        "points": "They are of any CRS, or a table (.csv, .txt, .xyz) in the CRS of the points.",
-        "words": "Words are separated by commas.",
-    }  # fmt: skip
-    if declared.kind == "points":
-        field = CheckpointInput(name, label, [compat.TABLES], None, True)
-    elif declared.kind in _LAYERS:
-        kinds = [_LAYERS[declared.kind]]
-        field = QgsProcessingParameterFeatureSource(name, label, kinds, None, True)
-    else:
-        field = makers[declared.kind]()
-    if declared.advanced:
-        field.setFlags(field.flags() | compat.ADVANCED)
-    metadata = field.metadata()
-    if declared.made_as:
-        widget = {"widget_wrapper": {"class": _RASTER_WIDGET}} if declared.kind == "raster" else {}
-        metadata = {**metadata, **widget, MADE_AS: declared.made_as}
-    elif declared.kind == "attribute":
-        metadata = {**metadata, "widget_wrapper": {"class": _ATTRIBUTE_WIDGET}}
-    field.setMetadata(metadata)
-    algorithm.addParameter(field, with_note(declared.help, helps.get(declared.kind, "")))
+def _one(make: Callable[..., Field], note: str = "") -> Callable[[Input], Fields]:
+    """Return what yields the field of an input, given its class or a function of name, label,
+    default, and whether it may be empty.
+    """
+
+    def fields(declared: Input) -> Fields:
+        optional = declared.optional or declared.kind not in _NEEDED
+        field = make(declared.field_name, declared.label, None, optional)
+        metadata = field.metadata()
+        if declared.made_as:
+            is_raster = declared.kind == "raster"
+            widget = {"widget_wrapper": {"class": _RASTER_WIDGET}} if is_raster else {}
+            metadata = {**metadata, **widget, MADE_AS: declared.made_as}
+        elif declared.kind == "attribute":
+            metadata = {**metadata, "widget_wrapper": {"class": _ATTRIBUTE_WIDGET}}
+        field.setMetadata(metadata)
+        help = with_note(declared.help, note)
+        yield (_advanced(field) if declared.advanced else field), help
+
+    return fields
 
 
-def given(request: Request, declared: Input) -> GivenInput:
-    """Return the value of an input in a dialog; refuse unsuitable values."""
-    return _READERS[declared.kind](request, declared)
+# Kinds whose fields must be filled in unless the input is optional.
+_NEEDED = ("cloud", "clouds", "address", "raster", "terrain")
 
 
-def _cloud(request: Request, declared: Input) -> GivenInput:
-    algorithm, parameters, context, _ = request
-    if declared.optional:
-        return _optional_cloud(request, declared)
-    source = source_of(algorithm, parameters, declared.field_name, context)
+def _cloud_field(name: str, label: str, default: None, optional: bool) -> Field:
+    return (SurveyInput if optional else PointCloudInput)(name, label, default, optional)
+
+
+def _words_field(name: str, label: str, default: None, optional: bool) -> Field:
+    return QgsProcessingParameterString(name, label, default, False, optional)
+
+
+def _attribute_field(name: str, label: str, default: None, optional: bool) -> Field:
+    return QgsProcessingParameterField(name, label, *_ATTRIBUTES[name], optional=optional)
+
+
+def _layer_field(
+    kind: object,
+    name: str,
+    label: str,
+    default: None,
+    optional: bool,
+    type: type = QgsProcessingParameterFeatureSource,
+) -> Field:
+    return type(name, label, [kind], default, optional)
+
+
+def _area_fields(declared: Input) -> Fields:
+    extent = QgsProcessingParameterExtent("EXTENT", "Extent", None, True)
+    boundary = _layer_field(compat.POLYGONS, *BOUNDARY, None, True)
+    helps = help_of_area(declared.help)
+    yield (_advanced(extent) if declared.advanced else extent), helps[0]
+    yield _advanced(boundary), helps[1]
+
+
+def _survey_fields(declared: Input) -> Fields:
+    yield SurveyInput("INPUT", "Point cloud", None, True), _SURVEY_HELP
+    yield _folder_field(), _FOLDER_HELP
+
+
+def _folder_field() -> Field:
+    label = "Folder of point clouds"
+    return QgsProcessingParameterFile("INPUT_FOLDER", label, compat.FOLDER, "", None, True)
+
+
+def _files_fields(declared: Input) -> Fields:
+    files = QgsProcessingParameterMultipleLayers("INPUT", "Point clouds", compat.FILES, None, True)
+    yield files, _FILES_HELP
+    yield _folder_field(), _FOLDER_HELP
+    # The list of files of QGIS offers no layers, and nothing can be typed into it.
+    yield _advanced(PointCloudInput(REMOTE, "Remote point cloud", None, True)), ADDRESS_HELP
+
+
+def _parts(declared: Input) -> Fields:
+    """Yield the fields of an input that consists of others."""
+    for part in GROUPS[declared.kind]:
+        if part.label:
+            part = replace(part, advanced=part.advanced or declared.advanced)
+            yield from KINDS[part.kind].fields(part)
+
+
+# The values.
+
+
+def _cloud(request: Request, declared: Input, resolved: Resolved) -> GivenInput:
+    if declared.optional and request.is_empty(declared.field_name):
+        return GivenInput(None)
+    source = source_of(request, declared.field_name)
+    if declared.optional:  # an option of the command, which is never downloaded
+        return GivenInput(local(source), {declared.name: str(source)})
     return _of_sources([source], is_one=declared.kind == "cloud")
 
 
-def _optional_cloud(request: Request, declared: Input) -> GivenInput:
-    """Return the value for points that are an option of the command, and are never downloaded."""
-    if request.is_empty(declared):
-        return GivenInput(None)
-    algorithm, parameters, context, _ = request
-    source = source_of(algorithm, parameters, declared.field_name, context)
-    if isinstance(source, Remote):
-        raise Refusal(mark("{} is not on this computer. Choose a file."), names_of([source]))
-    return GivenInput(source, {declared.name: str(source)})
-
-
-def _address(request: Request, declared: Input) -> GivenInput:
-    found = _cloud(request, declared)
+def _address(request: Request, declared: Input, resolved: Resolved) -> GivenInput:
+    found = _of_sources([source_of(request, declared.field_name)])
     return found._replace(value=found.remotes[0].address if found.remotes else str(found.paths[0]))
-
-
-def _files(request: Request, declared: Input) -> GivenInput:
-    return _of_sources(clouds_of(request.algorithm, request.parameters, request.context))
-
-
-def _survey(request: Request, declared: Input) -> GivenInput:
-    return _of_sources(survey_of(request.algorithm, request.parameters, request.context))
 
 
 def _of_sources(sources: Sequence[Path | Remote], is_one: bool = False) -> GivenInput:
@@ -200,176 +202,155 @@ def _of_sources(sources: Sequence[Path | Remote], is_one: bool = False) -> Given
     remotes = tuple(source for source in sources if isinstance(source, Remote))
     paths = tuple(source for source in sources if isinstance(source, Path))
     value = next(iter(paths), None) if is_one else list(paths)
-    return GivenInput(value, {}, tuple(map(words_of, sources)), paths, names_of(sources), remotes)
+    # Without secrets.
+    words = (shown(one.address) if isinstance(one, Remote) else str(one) for one in sources)
+    return GivenInput(value, {}, tuple(words), paths, names_of(sources), remotes)
 
 
-def _area(request: Request, declared: Input) -> GivenInput:
-    area, is_known = part_of(request)
-    if not is_known:
-        request.progress.info(
-            "In the command line the area is missing: save it as boundary.geojson, and add"
-            " --boundary boundary.geojson."
-        )
-        return GivenInput(area)
-    return GivenInput(area, area_options(area, request.file_in("BOUNDARY"), request.progress))
-
-
-def part_of(request: Request) -> tuple[Area | None, bool]:
-    """Return the area, and whether it is in the CRS of the points; it is in its own CRS as long as
-    that of remote points is not known.
-    """
-    algorithm, parameters, context, _ = request
-    if algorithm.is_elsewhere and not (algorithm.stated or algorithm.layer_crs):
-        area = area_in_own_crs(algorithm, parameters, context)
-        return area, area is None or not area.polygons
-    return area_of(algorithm, parameters, context, _crs_of(request)), True
-
-
-def _target(request: Request, declared: Input) -> GivenInput:
-    algorithm, parameters, context, _ = request
-    like = extent = None
-    if not compat.is_empty(parameters.get("LIKE")):
-        text = mark("The raster with the grid to use is not a file. Export it as GeoTIFF first.")
-        like = raster_of(algorithm, parameters, "LIKE", context, text).source()
-    if not compat.is_empty(parameters.get("RASTER_EXTENT")):
-        extent = box_of(algorithm, parameters, "RASTER_EXTENT", context, _crs_of(request))
-    options = {"like": like, "raster-extent": extent and tuple(map(repr, extent))}
-    return GivenInput(RasterTarget(like, extent), options)
-
-
-def _corrections(request: Request, declared: Input) -> GivenInput:
-    algorithm, parameters, context, progress = request
-    if request.is_empty(declared):
-        return GivenInput(NO_CORRECTIONS)
-    layer = declared.field_name
-    asked = algorithm.parameterAsString(parameters, "CORRECTIONS_FIELD", context) or CLASS_FIELD
-    source = algorithm.parameterAsSource(parameters, layer, context)
-    fields = [] if source is None else source.fields().names()
-    name, answer = (name_among(fields, wanted) or "" for wanted in (asked, ANSWER_FIELD))
-    if source is not None and not (name or answer):
-        text = mark("The corrections have no attribute {}. Choose the one to use.")
-        raise Refusal(text, asked)
-    file = request.file_in(layer) if asked.lower() == CLASS_FIELD else ""
-    if not file:
-        progress.info(
-            "In the command line the corrections are missing: save them in the CRS of the points"
-            f' as corrections.geojson, their class as the attribute "{CLASS_FIELD}", and add'
-            " --corrections corrections.geojson."
-        )
-    field = algorithm, parameters, layer, "Corrections", context, _crs_of(request)
-    shapes = layer_shapes(*field, attributes=fields)
-    polygons, rows = zip(*shapes) if shapes else ((), ())
-    classes, answers = (tuple(value_of(row, one) for row in rows) for one in (name, answer))
-    found = Corrections(polygons, classes, answers, tuple(map(plain_values, rows)))
-    return GivenInput(found, {declared.name: file})
-
-
-def _constraints(request: Request, declared: Input) -> GivenInput:
-    algorithm, parameters, context, progress = request
-    shapes: dict[str, Any] = {}  # of lines or of polygons
-    for part in GROUPS[declared.kind]:
-        if not request.is_empty(part):
-            field = algorithm, parameters, part.field_name, part.label, context, _crs_of(request)
-            found = layer_shapes(*field, _LAYERS[part.kind])
-            shapes[part.name] = tuple(corners for corners, _ in found)
-    files = {name: request.file_in(name.upper()) for name in shapes}
-    names = [name.replace("_", "-") for name, file in files.items() if not file]
-    if names:
-        progress.info(
-            "In the command line some layers are missing: save each in the CRS of the points as"
-            f" GeoJSON, and add {' '.join(f'--{name} {name}.geojson' for name in names)}."
-        )
-    return GivenInput(Constraints(**shapes), files)
-
-
-def _crs_of(request: Request) -> CloudCrs:
-    """Return the CRS of the raster or of the points, also in subfolders if the user asks for
-    these.
-    """
-    algorithm, parameters, context, _ = request
-    if isinstance(algorithm.parameterDefinition("INPUT"), QgsProcessingParameterRasterLayer):
-        layer = algorithm.parameterAsRasterLayer(parameters, "INPUT", context)
-        # Without a CRS nothing is transformed.
-        return CloudCrs(stated=text_of(layer.crs()) or "WKT:")
-    is_deep = algorithm.parameterDefinition("RECURSIVE") is not None
-    recursive = is_deep and algorithm.parameterAsBool(parameters, "RECURSIVE", context)
-    return algorithm.crs_of(*algorithm.inputs, recursive=recursive)
-
-
-def _raster(request: Request, declared: Input) -> GivenInput:
-    if declared.optional and request.is_empty(declared):
+def _raster(request: Request, declared: Input, resolved: Resolved) -> GivenInput:
+    if declared.optional and request.is_empty(declared.field_name):
         return GivenInput(None)
-    algorithm, parameters, context, _ = request
-    refusal = _NO_FILES.get(declared.name, _NO_FILE)
-    layer = raster_of(algorithm, parameters, declared.field_name, context, refusal)
+    layer = raster_of(request, declared.field_name, _NO_FILES.get(declared.name, _NO_FILE))
     source = layer.source()
     if declared.optional:
         return GivenInput(source, {declared.name: source})
     return GivenInput(source, {}, (source,), (Path(source),), layer.name())
 
 
-def _terrain(request: Request, declared: Input) -> GivenInput:
-    algorithm, parameters, context, _ = request
-    source, name = terrain_of(algorithm, parameters, declared.field_name, context)
+def _terrain(request: Request, declared: Input, resolved: Resolved) -> GivenInput:
+    source, name = terrain_of(request, declared.field_name)
     return GivenInput(source, {}, (source,), (Path(source),), name)
 
 
-def _crs(request: Request, declared: Input) -> GivenInput:
-    return GivenInput(request.algorithm.stated, {"crs": request.algorithm.stated})
+def _crs(request: Request, declared: Input, resolved: Resolved) -> GivenInput:
+    return GivenInput(resolved.stated, {"crs": resolved.stated})
 
 
-def _extent(request: Request, declared: Input) -> GivenInput:
-    if request.is_empty(declared):
-        return GivenInput(None)
-    algorithm, parameters, context, _ = request
-    crs = algorithm.crs_of(*algorithm.inputs)
-    box = box_of(algorithm, parameters, declared.field_name, context, crs)
-    return GivenInput(box, {declared.name: tuple(map(repr, box))})
-
-
-def _words(request: Request, declared: Input) -> GivenInput:
-    algorithm, parameters, context, _ = request
-    text = algorithm.parameterAsString(parameters, declared.field_name, context)
+def _words(request: Request, declared: Input, resolved: Resolved) -> GivenInput:
+    text = request.read("String", declared.field_name)
     words = tuple(word for part in text.split(",") if (word := part.strip()))
     return GivenInput(words, {declared.name: words})
 
 
-def _checkpoints(request: Request, declared: Input) -> GivenInput:
-    algorithm, parameters, context, progress = request
-    crs = algorithm.crs_of(*algorithm.inputs)
-    return GivenInput(*checkpoints_of(algorithm, parameters, context, crs, progress))
+def _extent(request: Request, declared: Input, resolved: Resolved) -> GivenInput:
+    if request.is_empty(declared.field_name):
+        return GivenInput(None)
+    box = box_of(request, declared.field_name, resolved.crs)
+    return GivenInput(box, {declared.name.replace("_", "-"): tuple(map(repr, box))})
 
 
-def _polygons(request: Request, declared: Input) -> GivenInput:
-    if declared.optional and request.is_empty(declared):
-        return GivenInput(declared.of(()))
-    if declared.found and request.is_empty(declared):
-        return GivenInput(Automatic(), {declared.name: "automatic"})
-    algorithm, parameters, context, progress = request
-    file = request.file_in(declared.field_name)
-    if not file:
-        file = f"{declared.name}.geojson"
-        progress.info(
-            f"In the command line the {declared.name} is missing: save it in the CRS of the points"
-            f" as {file}."
-        )
-    crs = algorithm.crs_of(*algorithm.inputs)
-    field = declared.field_name, declared.label
-    shapes = layer_shapes(
-        algorithm, parameters, *field, context, crs, may_be_empty=declared.may_be_empty
+def _target(request: Request, declared: Input, resolved: Resolved) -> GivenInput:
+    like, extent = (
+        KINDS[part.kind].read(request, part, resolved) for part in GROUPS[declared.kind]
     )
-    polygons = tuple(rings for rings, _ in shapes)
-    return GivenInput(declared.of(polygons), {declared.name: file})
+    return GivenInput(RasterTarget(like.value, extent.value), {**like.options, **extent.options})
 
 
-_READERS: dict[str, Callable[[Request, Input], GivenInput]] = {
-    "cloud": _cloud, "clouds": _cloud, "address": _address, "raster": _raster, "crs": _crs,
-    "terrain": _terrain,
-    "extent": _extent, "words": _words, "checkpoints": _checkpoints, "polygons": _polygons,
-    "files": _files, "survey": _survey, "area": _area, "target": _target,
-    "corrections": _corrections, "constraints": _constraints,
-}  # fmt: skip
-# Inputs with fields of their own.
-_GROUPS: dict[str, Callable[[BareEarthAlgorithm], None]] = {
-    "files": add_clouds, "survey": add_survey,
-}  # fmt: skip
+def _area(request: Request, declared: Input, resolved: Resolved) -> GivenInput:
+    area = area_of(request, resolved.crs)
+    if area is None:
+        return GivenInput(None)
+    file = file_for_command(request, "BOUNDARY") if resolved.crs.is_known else ""
+    if area.polygons and not file:
+        _tell_missing(request, ["boundary"])
+    box = tuple(map(repr, area.box)) if area.box else ()
+    return GivenInput(area, {"extent": box, "boundary": file})
+
+
+def _tell_missing(request: Request, names: Sequence[str], note: str = "") -> None:
+    """Tell which layers the command line lacks, since no files hold what they hold."""
+    names = [name.replace("_", "-") for name in names]
+    options = " ".join(f"--{name} {name}.geojson" for name in names)
+    request.progress.info(
+        f"The command line lacks what is in layers: save {' and '.join(names)} in the CRS of the"
+        f" points as GeoJSON{note}, and add {options}."
+    )
+
+
+def _corrections(request: Request, declared: Input, resolved: Resolved) -> GivenInput:
+    name = declared.field_name
+    if request.is_empty(name):
+        return GivenInput(NO_CORRECTIONS)
+    asked = request.read("String", "CORRECTIONS_FIELD") or CLASS_FIELD
+    source = request.read("Source", name)
+    fields = [] if source is None else source.fields().names()
+    of_class, answer = (name_among(fields, wanted) or "" for wanted in (asked, ANSWER_FIELD))
+    if source is not None and not (of_class or answer):
+        text = mark("The corrections have no attribute {}. Choose the one to use.")
+        raise Refusal(text, asked)
+    file = file_for_command(request, name) if asked.lower() == CLASS_FIELD else ""
+    if not file:
+        _tell_missing(request, [declared.name], f', with the attribute "{CLASS_FIELD}"')
+    shapes = layer_shapes(request, name, "Corrections", resolved.crs, attributes=fields)
+    polygons, rows = zip(*shapes) if shapes else ((), ())
+    classes, answers = (tuple(value_of(row, one) for row in rows) for one in (of_class, answer))
+    found = Corrections(polygons, classes, answers, tuple(map(plain_values, rows)))
+    return GivenInput(found, {declared.name: file})
+
+
+def _constraints(request: Request, declared: Input, resolved: Resolved) -> GivenInput:
+    given = [part for part in GROUPS[declared.kind] if not request.is_empty(part.field_name)]
+    shapes: dict[str, Any] = {}  # of lines or of polygons
+    for part in given:
+        field = part.field_name, part.label, resolved.crs, _LAYERS[part.kind]
+        shapes[part.name] = tuple(corners for corners, _ in layer_shapes(request, *field))
+    files = {part.name: file_for_command(request, part.field_name) for part in given}
+    if missing := [name for name, file in files.items() if not file]:
+        _tell_missing(request, missing)
+    return GivenInput(Constraints(**shapes), files)
+
+
+def _polygons(request: Request, declared: Input, resolved: Resolved) -> GivenInput:
+    name = declared.field_name
+    if declared.optional and request.is_empty(name):
+        return GivenInput(declared.of(()))
+    if declared.found and request.is_empty(name):
+        return GivenInput(Automatic(), {declared.name: "automatic"})
+    file = file_for_command(request, name)
+    if not file:
+        _tell_missing(request, [declared.name])
+    field = name, declared.label, resolved.crs
+    shapes = layer_shapes(request, *field, may_be_empty=declared.may_be_empty)
+    return GivenInput(declared.of(tuple(rings for rings, _ in shapes)), {declared.name: file})
+
+
+def _checkpoints(request: Request, declared: Input, resolved: Resolved) -> GivenInput:
+    return GivenInput(*checkpoints_of(request, resolved.crs))
+
+
+# When inputs are read: the files, which name the run and are checked before it; before the work,
+# in the main thread; when the work begins, in its thread, since it can take long.
+FILES, BEFORE, LATE = range(3)
+
+
+class Kind(NamedTuple):
+    """A kind of input: its fields, how they are read, and when."""
+
+    fields: Callable[[Input], Fields]
+    # From the fields and, except for files, from what is resolved by then.
+    read: Callable[[Request, Input, Resolved], GivenInput] = lambda *_: GivenInput(None)
+    when: int = BEFORE
+
+
+KINDS = {
+    "cloud": Kind(_one(_cloud_field, _CLOUD_HELP), _cloud, FILES),
+    "clouds": Kind(_one(SurveyInput, _ANY_CLOUD_HELP), _cloud, FILES),
+    "files": Kind(_files_fields, lambda request, *_: _of_sources(clouds_of(request)), FILES),
+    "survey": Kind(_survey_fields, lambda request, *_: _of_sources(survey_of(request)), FILES),
+    "address": Kind(_one(PointCloudInput, LAYER_HELP), _address, FILES),
+    "raster": Kind(_one(QgsProcessingParameterRasterLayer), _raster, FILES),
+    "terrain": Kind(_one(TerrainInput), _terrain, FILES),
+    "crs": Kind(_one(QgsProcessingParameterCrs), _crs),
+    "extent": Kind(_one(QgsProcessingParameterExtent), _extent),
+    "words": Kind(_one(_words_field, "Words are separated by commas."), _words),
+    "area": Kind(_area_fields, _area),
+    "target": Kind(_parts, _target),
+    "corrections": Kind(_parts, _corrections),
+    "constraints": Kind(_parts, _constraints),
+    "checkpoints": Kind(_parts, _checkpoints, LATE),
+    "polygons": Kind(_one(partial(_layer_field, compat.POLYGONS)), _polygons, LATE),
+    # Parts of the groups above.
+    "lines": Kind(_one(partial(_layer_field, compat.LINES))),
+    "points": Kind(_one(partial(_layer_field, compat.TABLES, type=CheckpointInput), _POINTS_HELP)),
+    "attribute": Kind(_one(_attribute_field)),
+}

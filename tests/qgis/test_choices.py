@@ -7,6 +7,8 @@ from qgis.PyQt.QtCore import QCoreApplication, QEvent, Qt
 from qgis.PyQt.QtWidgets import QComboBox
 from support import remove
 
+from bare_earth.plugin.processing.request import Request
+
 TIN = "bareearth:tindensification"
 
 
@@ -84,7 +86,7 @@ def test_numbers_of_the_list_are_accepted(algorithm, value, scene, tmp_path):
     assert field.clone().checkValueIsAcceptable(value, context)
     values = {"INPUT": str(scene.path), "OUTPUT": str(tmp_path / "o.las"), "PRESET": value}
     assert algorithm.checkParameterValues(values, context) == (True, "")
-    assert algorithm.chosen(values, context)[0].preset == "steep"
+    assert algorithm.sets_of(Request(algorithm, values, context))[0].preset == "steep"
 
 
 @pytest.mark.parametrize("value", ["steeper", 8, "99", -1])
@@ -120,7 +122,7 @@ def test_several_choices_show_labels_and_give_ids(dialog, scene, given):
     algorithm = QgsApplication.processingRegistry().createAlgorithmById(COMPARE)
     context = QgsProcessingContext()
     assert algorithm.checkParameterValues(values, context) == (True, "")
-    assert list(algorithm.chosen(values, context)[0].settings) == SETTINGS
+    assert list(algorithm.sets_of(Request(algorithm, values, context))[0].settings) == SETTINGS
 
 
 def test_a_table_of_several_choices_has_labels_too(plugin):

@@ -22,7 +22,9 @@ from bare_earth import BareEarthError
 from bare_earth.algorithms.classes.corrections import read_corrections
 from bare_earth.algorithms.crs.system import Crs
 from bare_earth.algorithms.survey.shapes import Place
-from bare_earth.plugin.processing.inputs import CloudCrs, layer_shapes
+from bare_earth.plugin.processing.cloud_crs import CloudCrs
+from bare_earth.plugin.processing.request import Request
+from bare_earth.plugin.processing.shapes import layer_shapes
 
 EAST, NORTH = 500_000.0, 5_700_000.0
 CLASSIFIERS = ["tindensification", "gridminimum", "slopefilter", "classifytiles"]
@@ -126,10 +128,10 @@ def test_curves_holes_and_collections_are_used_and_an_empty_layer_changes_nothin
     algorithm = QgsApplication.processingRegistry().createAlgorithmById("bareearth:slopefilter")
     context = QgsProcessingContext()
     context.setProject(QgsProject.instance())
-    field = "NO_GROUND", "No ground here", context, CloudCrs(scene.path)
-    ((rings, _),) = layer_shapes(algorithm, {"NO_GROUND": mixed}, *field)
+    field = "NO_GROUND", "No ground here", CloudCrs(scene.path)
+    ((rings, _),) = layer_shapes(Request(algorithm, {"NO_GROUND": mixed}, context), *field)
     assert len(rings) == 2 and len(rings[0]) > 50 and rings[1].shape == (4, 2)
-    assert layer_shapes(algorithm, {"NO_GROUND": empty}, *field) == ()
+    assert layer_shapes(Request(algorithm, {"NO_GROUND": empty}, context), *field) == ()
 
 
 def test_without_a_raster_they_have_no_use(scene, tmp_path, line):

@@ -8,7 +8,10 @@ from qgis.core import QgsProcessingContext, QgsProperty
 
 from bare_earth import BareEarthError
 from bare_earth.algorithms.core.parameters import ParameterSet, parameter
-from bare_earth.plugin.processing.base import BareEarthAlgorithm, command_line
+from bare_earth.algorithms.tools.declaration import FileTool
+from bare_earth.plugin.processing.algorithm import ToolAlgorithm
+from bare_earth.plugin.processing.commands import command_line
+from bare_earth.plugin.processing.request import Request
 
 
 @dataclass(frozen=True)
@@ -26,24 +29,16 @@ class Example(ParameterSet):
     )
 
 
-class ExampleAlgorithm(BareEarthAlgorithm):
-    def parameter_sets(self):
-        return (Example,)
-
-    def initAlgorithm(self, configuration=None):
-        self.add_declared()
-
-    def createInstance(self):
-        return ExampleAlgorithm()
+TOOL = FileTool("example", (Example,), own_line="An example.")
 
 
 @pytest.fixture
 def example():
-    return ExampleAlgorithm().create()
+    return ToolAlgorithm(TOOL).create()
 
 
 def chosen(example, values):
-    return example.chosen(values, QgsProcessingContext())[0]
+    return example.sets_of(Request(example, values, QgsProcessingContext()))[0]
 
 
 def test_without_values_the_defaults_are_taken(example):

@@ -103,7 +103,6 @@ def test_ground_in_a_layer_of_water_becomes_class_9(registry, cloud, tmp_path, i
     assert (classes == 20).sum() == results["IGNORED_COUNT"] > 100
     assert abs((classes == 20).sum() - beside.sum()) < 5
     assert "water-classes" in log.text and "--water water.geojson" in log.text
-    assert "save it in the CRS of the points as water.geojson." in log.text
 
 
 def test_without_a_layer_the_water_is_found(registry, cloud, tmp_path):
