@@ -109,13 +109,9 @@ class ToolAlgorithm(QgsProcessingAlgorithm):
         """Do the work, in any thread, and return the outputs."""
         return run.work()
 
-    def declared_field(self, declaration: Declaration) -> QgsProcessingParameterDefinition:
-        """Return the field of a declared parameter."""
-        return field_of(declaration, self._is_shown(declaration))
-
-    def _is_shown(self, declaration: Declaration) -> bool:
-        shown = self.tool.shown
-        return not declaration.advanced if shown is None else declaration.name in shown
+    def no_choice(self, declaration: Declaration) -> str:
+        """Return the label of no value, of a parameter that is empty at first."""
+        return ""
 
     def addParameter(self, field: QgsProcessingParameterDefinition, help: str = "") -> bool:
         """Add a field to the dialog, with its label in the user's language."""
@@ -124,18 +120,16 @@ class ToolAlgorithm(QgsProcessingAlgorithm):
         return super().addParameter(field)
 
     def addOutput(self, output: QgsProcessingOutputDefinition) -> bool:
-        """Add an output, with its label in the user's language."""
         output.setDescription(tr(output.description()))
         return super().addOutput(output)
 
     def initAlgorithm(self, configuration: dict[str, object] | None = None) -> None:
-        """Declare the fields of the dialog and the results."""
         self._add_inputs(is_last=False)
         unused = ("relief_radius",) if isinstance(self.tool, MapTool) else ()
-        for declared in self.parameter_sets():
-            for parameter in declared.declarations():
-                if parameter.name not in unused:
-                    super().addParameter(self.declared_field(parameter))  # it is translated
+        for one in (one for declared in self.parameter_sets() for one in declared.declarations()):
+            shown = not one.advanced if self.tool.shown is None else one.name in self.tool.shown
+            if one.name not in unused:
+                super().addParameter(field_of(one, shown, self.no_choice(one)))  # it is translated
         self._add_inputs(is_last=True)
         kinds = {one.kind for one in self.inputs if not (one.optional and one.kind == "cloud")}
         if kinds.intersection(_CLOUDS):
@@ -161,7 +155,6 @@ class ToolAlgorithm(QgsProcessingAlgorithm):
     # QGIS calls the following methods.
 
     def createInstance(self) -> ToolAlgorithm:
-        """Return another instance."""
         return type(self)(self.tool)
 
     def name(self) -> str:
@@ -169,27 +162,21 @@ class ToolAlgorithm(QgsProcessingAlgorithm):
         return self.tool.identifier
 
     def displayName(self) -> str:
-        """Return the name in the toolbox."""
         return tr(self.tool.title)
 
     def group(self) -> str:
-        """Return the group in the toolbox."""
         return tr(self.tool.section)
 
     def groupId(self) -> str:
-        """Return the id of the group."""
         return self.tool.section.lower().replace(" ", "")
 
     def shortDescription(self) -> str:
-        """Return the tooltip."""
         return tr(self.tool.line)
 
     def tags(self) -> list[str]:
-        """Return the words for the search of the toolbox."""
         return words_in(self.tool.words)
 
     def helpUrl(self) -> str:
-        """Return the address of the page on the algorithm."""
         return address_of(self.page)
 
     def shortHelpString(self) -> str:
@@ -211,11 +198,9 @@ class ToolAlgorithm(QgsProcessingAlgorithm):
         return "\n".join(paragraphs)
 
     def icon(self) -> QIcon:
-        """Return the icon in the toolbox."""
         return QIcon(self.svgIconPath())
 
     def svgIconPath(self) -> str:
-        """Return the file of the icon."""
         return str(_ICONS / f"{self.name()}.svg")
 
     def hasHtmlOutputs(self) -> bool:

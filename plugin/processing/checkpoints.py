@@ -20,15 +20,14 @@ from qgis.core import (
 )
 
 from ...algorithms.core.errors import BareEarthError
-from ...algorithms.tools.check.checkpoints import Checkpoints
 from ...algorithms.tools.check.reading import CheckpointRow, checkpoints_of_rows, read_checkpoints
 from ...algorithms.tools.check.tables import SUFFIXES, read_table
+from ...algorithms.tools.declaration import Input
 from .. import compat
 from ..i18n import mark, tr
 from ..styles.loaded import filter_of, has_edits
-from .cloud_crs import CloudCrs
 from .feedback import Refusal
-from .request import Request
+from .request import GivenInput, Request, Resolved
 from .shapes import features_of
 
 _LAYER = "CHECKPOINTS"
@@ -40,7 +39,6 @@ class CheckpointInput(QgsProcessingParameterFeatureSource):
     """A layer of points, a table, or a text file of points, which QGIS itself can't load."""
 
     def clone(self) -> CheckpointInput:
-        """Return a copy; dialogs and models work with copies."""
         return CheckpointInput(self)
 
     def checkValueIsAcceptable(
@@ -50,30 +48,30 @@ class CheckpointInput(QgsProcessingParameterFeatureSource):
         return _file_of(value) is not None or super().checkValueIsAcceptable(value, context)
 
     def createFileFilter(self) -> str:
-        """Return the file types for the button "...", first those of tables."""
         endings = " ".join(f"*{suffix}" for suffix in SUFFIXES)
         return f"{tr('Tables')} ({endings});;{super().createFileFilter()}"
 
 
-def checkpoints_of(request: Request, crs: CloudCrs) -> tuple[Checkpoints | None, dict[str, str]]:
+def checkpoints_of(request: Request, declared: Input, resolved: Resolved) -> GivenInput:
     """Return the checkpoints in the CRS of the points, and the options for the command line; a
     message says how to give a layer there.
     """
     if request.is_empty(_LAYER):
-        return None, {}
+        return GivenInput(None)
     named = ((role, request.read("String", field)) for field, role in _ROLES.items())
     chosen = {role: name for role, name in named if name}
     columns = ",".join(f"{role}={name}" for role, name in chosen.items())
     path = _table_of(request.parameters[_LAYER], request.context)
     if path is not None:
-        return read_checkpoints(path, columns), {"checkpoints": str(path), "columns": columns}
+        options = {"checkpoints": str(path), "columns": columns}
+        return GivenInput(read_checkpoints(path, columns), options)
     request.progress.info(
         "In the command line the checkpoints are missing: save them as checkpoints.gpkg, and add"
         " --checkpoints checkpoints.gpkg."
     )
     source = request.read("Source", _LAYER)
     names = source.fields().names() if source is not None else []
-    features = features_of(source, "Checkpoints", crs.value, request, names)
+    features = features_of(source, "Checkpoints", resolved.crs.value, request, names)
     is_table = source is not None and source.wkbType() == compat.NO_GEOMETRY
     records = [
         _record(number, feature, names, is_table)
@@ -82,7 +80,7 @@ def checkpoints_of(request: Request, crs: CloudCrs) -> tuple[Checkpoints | None,
     ]
     if not records:
         raise Refusal(mark('The layer "{}" holds no point. Choose one that does.'), "Checkpoints")
-    return checkpoints_of_rows(names, records, chosen, source.sourceName()), {}
+    return GivenInput(checkpoints_of_rows(names, records, chosen, source.sourceName()))
 
 
 def names_in(value: Any, context: QgsProcessingContext) -> list[str]:

@@ -20,7 +20,6 @@ class ChoiceParameter(QgsProcessingParameterEnum):
     """A choice among values; the numbers in the list of qgis_process are accepted, too."""
 
     def clone(self) -> ChoiceParameter:
-        """Return a copy; dialogs and models work with copies."""
         return ChoiceParameter(self)
 
     def checkValueIsAcceptable(

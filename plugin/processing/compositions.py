@@ -5,8 +5,6 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Iterator
 
-from qgis.core import QgsProcessingParameterDefinition
-
 from ...algorithms.classes.kept_classes import GROUND
 from ...algorithms.classes.selection import Selection
 from ...algorithms.core.files import split_name
@@ -29,8 +27,7 @@ from ..styles import layers
 from .algorithm import ToolAlgorithm
 from .commands import command_line
 from .feedback import Refusal
-from .fields import field_of
-from .outputs import cloud_path_of, do_not_load, given_path, point_cloud_formats
+from .outputs import do_not_load, given_path, point_cloud_formats
 from .request import Request, Resolved
 from .showing import Results, ToolRun, show_classified
 
@@ -43,12 +40,11 @@ _USUAL_CELL = 1.0
 class CompositionAlgorithm(ToolAlgorithm):
     """Tools that work one after another: a delivery, or single outputs."""
 
-    def declared_field(self, declaration: Declaration) -> QgsProcessingParameterDefinition:
-        """Return the field of a declared parameter, empty at first if deliveries set its value."""
+    def no_choice(self, declaration: Declaration) -> str:
+        """Return the label of no value, of parameters that deliveries set."""
         is_open = declaration.name in names_of_values() and declaration.default is not None
         is_open &= declaration.kind in ("boolean", "choice")
-        no_choice = mark("From the delivery") if is_open else ""
-        return field_of(declaration, self._is_shown(declaration), no_choice)
+        return mark("From the delivery") if is_open else ""
 
     def run_name(self, resolved: Resolved) -> str:
         """Return the name of the group of layers, after that of the input."""
@@ -166,14 +162,14 @@ def _make_own(run: ToolRun) -> Results:
         for values in resolved.sets
         if not isinstance(values, (DeliveryChoice, *OF_DELIVERIES))
     ]
-    cloud = cloud_path_of(run.request, "OUTPUT")
+    paths = {one.name: run.path(one) for one in run.outputs if one.kind != "folder"}
+    cloud = paths.pop("cloud")
     target, tiles = cloud, TileOutput()
     if cloud and resolved.points.is_survey:  # a folder of this name without its ending
         name, ending = split_name(Path(cloud))
         target, tiles = str(Path(cloud).with_name(name)), TileOutput(ending[1:].lower() or "same")
     sets += [Written(area_only=given["area"] is not None), tiles]
     run.resolved = resolved = resolved._replace(sets=sets)
-    paths = {one.name: run.path(one) for one in run.outputs if one.kind in ("raster", "features")}
     drawn = {name.upper(): path for name, path in paths.items() if path}
     done = run_tool(map_tool("classify"), given, {**paths, "output": target}, sets, progress)
     written = cloud and str(done.vpc or cloud)

@@ -28,42 +28,33 @@ _MOST_EXPLAINED = 12
 
 
 def field_of(
-    declaration: Declaration, is_shown: bool | None = None, no_choice: str = ""
+    declaration: Declaration, is_shown: bool, no_choice: str = ""
 ) -> QgsProcessingParameterDefinition:
-    """Return the Processing parameter for a declared one, with label, unit, limits, default and
-    help, shown or advanced as declared unless `is_shown` says; `no_choice` is the label of no value
-    for a choice or boolean that is empty at first.
+    """Return the field of a declared parameter, shown or advanced, with label, unit, limits,
+    default and help; `no_choice` is the label of no value, if it is empty at first.
     """
     name, label = declaration.name.upper(), title_of(declaration)
     default, optional = declaration.default, declaration.optional
-    if no_choice:
-        choices = declaration.choices or {OFF: "No", ON: "Yes"}
-        field = ChoiceParameter(name, label, list(choices), False, None, True, True)
-        field = with_labels(field, list(map(tr, choices.values())), tr(no_choice))
-    elif declaration.kind == "choices":
-        field = ChoiceParameter(
-            name, label, list(declaration.choices), True, list(default), optional, True
-        )
-        field = with_labels(field, list(map(tr, declaration.choices.values())))
+    choices = declaration.choices or ({OFF: "No", ON: "Yes"} if no_choice else {})
+    if choices:
+        # Stored as values, not as positions in the list, so that saved models stay valid.
+        is_list = declaration.kind == "choices"
+        default = None if no_choice else list(default) if is_list else default
+        # Advanced ones are optional as booleans are, since they can be newer than a saved model.
+        optional = optional or bool(no_choice) or (declaration.advanced and not is_list)
+        field = ChoiceParameter(name, label, list(choices), is_list, default, optional, True)
+        field = with_labels(field, list(map(tr, choices.values())), no_choice and tr(no_choice))
     elif declaration.kind == "boolean":
         # Optional: QGIS 3.22 refuses old models without this parameter otherwise.
         field = QgsProcessingParameterBoolean(name, label, default, True)
         field.setMetadata({"widget_wrapper": {"class": _CHECK_WIDGET}})
-    elif declaration.kind == "choice":
-        # Stored as values, not as positions in the list, so that saved models stay valid.
-        # Advanced ones are optional as booleans are, since they can be newer than a saved model.
-        optional = optional or declaration.advanced
-        field = ChoiceParameter(
-            name, label, list(declaration.choices), False, default, optional, True
-        )
-        field = with_labels(field, list(map(tr, declaration.choices.values())))
     elif declaration.kind in _LISTS:
         default = None if default is None else ", ".join(f"{number:g}" for number in default)
         field = QgsProcessingParameterString(name, label, default, False, optional)
     else:
         field = _number_field(declaration, name, label)
     field.setHelp(help_of(declaration))
-    if not (is_shown if is_shown is not None else not declaration.advanced):
+    if not is_shown:
         field.setFlags(field.flags() | compat.ADVANCED)
     return field
 
@@ -79,16 +70,11 @@ def _number_field(declaration: Declaration, name: str, label: str) -> QgsProcess
         field.setMaximum(declaration.maximum)
     if declaration.kind == "number":
         # The usual six decimals are too many for metres and degrees.
-        shown = (declaration.minimum, declaration.default)
-        decimals = max(
-            _FEWEST_DECIMALS, *(_decimals(number) for number in shown if number is not None)
-        )
-        field.setMetadata({"widget_wrapper": {"decimals": decimals}})
+        shown = (one for one in (declaration.minimum, declaration.default) if one is not None)
+        decimals = (len(f"{one:f}".rstrip("0").partition(".")[2]) for one in shown)
+        metadata = {"decimals": max(_FEWEST_DECIMALS, *decimals)}
+        field.setMetadata({"widget_wrapper": metadata})
     return field
-
-
-def _decimals(value: float) -> int:
-    return len(f"{value:f}".rstrip("0").partition(".")[2])
 
 
 def title_of(declaration: Declaration) -> str:

@@ -44,8 +44,7 @@ class PointCloudInput(QgsProcessingParameterPointCloudLayer):
         self.setMetadata({**self.metadata(), "widget_wrapper": {"class": _WIDGET}})
 
     def clone(self) -> PointCloudInput:
-        """Return a copy; dialogs and models work with copies."""
-        return PointCloudInput(self)
+        return type(self)(self)
 
     def checkValueIsAcceptable(
         self, value: object, context: QgsProcessingContext | None = None
@@ -80,12 +79,7 @@ class PointCloudInput(QgsProcessingParameterPointCloudLayer):
 class SurveyInput(PointCloudInput):
     """A point cloud layer, or any file or folder, such as a virtual point cloud or a list."""
 
-    def clone(self) -> SurveyInput:
-        """Return a copy."""
-        return SurveyInput(self)
-
     def createFileFilter(self) -> str:
-        """Return the file types for the button "..."."""
         return _filter("*.las *.laz *.vpc *.txt *.LAS *.LAZ")
 
 
@@ -97,8 +91,7 @@ class TerrainInput(QgsProcessingParameterMapLayer):
         self.setDataTypes(compat.TERRAINS)
 
     def clone(self) -> TerrainInput:
-        """Return a copy."""
-        return TerrainInput(self)
+        return type(self)(self)
 
     def checkValueIsAcceptable(
         self, value: object, context: QgsProcessingContext | None = None

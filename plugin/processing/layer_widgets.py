@@ -1,7 +1,10 @@
-"""Widgets of fields for point clouds and rasters, which can begin with what the last run made."""
+"""Widgets of fields for point clouds and rasters, which can begin with what the last run made, and
+for attributes of layers and columns of text tables.
+"""
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -26,48 +29,16 @@ from ...algorithms.remote.addresses import is_address
 from .. import compat
 from ..i18n import tr
 from ..styles.loaded import file_of, sources_of
+from .checkpoints import names_in
 from .remote import ADDRESS, PART, REMOTE, extent_of_map
 from .runs import MADE_AS, made_last
-from .widgets import is_designer, keep, own_widget
-
-
-class PointCloudWidget:
-    """Makes the widget of a point cloud, which accepts files and texts in the model designer."""
-
-    # QGIS itself only offers inputs that are layers there. Without its `pdal` provider, these
-    # cannot be .las and .laz files; texts are addresses. In a dialog for one run, a cloud of the
-    # project is chosen at first.
-
-    def __new__(
-        cls, parameter: QgsProcessingParameterDefinition, dialog: QWidget, *_: object
-    ) -> Any:
-        """Return a widget, not an instance of this class."""
-        widget = own_widget(_CloudBox, parameter, dialog)
-        if is_designer(dialog):
-            # Adds inputs that are files or texts; outputs that are files are already in the list.
-            kinds = QgsProcessingParameterFile, QgsProcessingParameterString
-            widget.populateSources([kind.typeName() for kind in kinds], [], [])
-        return widget
-
-
-class RasterWidget:
-    """Makes the widget of a raster; a dialog for one run first shows the last one made."""
-
-    def __new__(
-        cls, parameter: QgsProcessingParameterDefinition, dialog: QWidget, *_: object
-    ) -> Any:
-        """Return a widget, not an instance of this class."""
-        return own_widget(_LayerBox, parameter, dialog)
+from .widgets import designer_widget, is_designer, keep, kind, own_widget, widget_class
 
 
 class _LayerBox(QgsAbstractProcessingParameterWidgetWrapper):
     """The box of QGIS for a layer or file, which first of all shows what is suggested."""
 
     def createWidget(self) -> QWidget:
-        """Return the box."""
-        return self._new_box()
-
-    def _new_box(self) -> QgsProcessingMapLayerComboBox:
         box = keep(QgsProcessingMapLayerComboBox(self.parameterDefinition(), self.type()))
         box.setWidgetContext(self.widgetContext())
         self._suggested: str | None = None
@@ -80,7 +51,6 @@ class _LayerBox(QgsAbstractProcessingParameterWidgetWrapper):
         return sip.cast(self.wrappedWidget(), QgsProcessingMapLayerComboBox)
 
     def setWidgetContext(self, context: QgsProcessingParameterWidgetContext) -> None:
-        """Store project and window."""
         super().setWidgetContext(context)
         if self.wrappedWidget() is not None:
             self._box.setWidgetContext(context)
@@ -99,7 +69,6 @@ class _LayerBox(QgsAbstractProcessingParameterWidgetWrapper):
             self._box.setValue(value or None, context)
 
     def widgetValue(self) -> object:
-        """Return the layer or file."""
         return self._box.value()
 
     def _suggestion(self) -> str:
@@ -118,8 +87,7 @@ class _CloudBox(_LayerBox):
     # For a remote one, the extent of the map is shown in the field for the extent.
 
     def createWidget(self) -> QWidget:
-        """Return the box, which offers point clouds only."""
-        box = self._new_box()
+        box = super().createWidget()
         self._extent: QgsAbstractProcessingParameterWidgetWrapper | None = None
         self._shown: object = None  # the suggested extent
         names = _names_in(box)
@@ -140,7 +108,6 @@ class _CloudBox(_LayerBox):
             _show_choice(_names_in(self._box))
 
     def widgetValue(self) -> object:
-        """Return the layer or file, or what is typed."""
         value = self._box.value()
         return value.strip() if isinstance(value, str) else value
 
@@ -194,6 +161,39 @@ class _CloudBox(_LayerBox):
             self._box.setLayer(None)
 
 
+class _AttributeBox(QgsAbstractProcessingParameterWidgetWrapper):
+    """A box with names to choose from, in which another one, or a number, can be typed."""
+
+    def createWidget(self) -> QWidget:
+        box = keep(QComboBox())
+        box.setEditable(True)
+        box.setInsertPolicy(QComboBox.InsertPolicy.NoInsert)
+        box.editTextChanged.connect(lambda _: self.widgetValueHasChanged.emit(self))
+        return box
+
+    def setWidgetValue(self, value: object, context: QgsProcessingContext) -> None:
+        self.wrappedWidget().setEditText("" if compat.is_null(value) else str(value))
+
+    def widgetValue(self) -> str | None:
+        return self.wrappedWidget().currentText().strip() or None
+
+    def postInitialize(self, wrappers: list[QgsAbstractProcessingParameterWidgetWrapper]) -> None:
+        """Show the names of what is chosen in the field of the layer."""
+        super().postInitialize(wrappers)
+        parent = self.parameterDefinition().parentLayerParameterName()
+        for wrapper in wrappers:
+            if wrapper.parameterDefinition().name() == parent:
+                wrapper.widgetValueHasChanged.connect(self._fill)
+                self._fill(wrapper)
+
+    def _fill(self, parent: QgsAbstractProcessingParameterWidgetWrapper) -> None:
+        box = self.wrappedWidget()
+        text = box.currentText()
+        box.clear()
+        box.addItems(["", *names_in(parent.parameterValue(), QgsProcessingContext())])
+        box.setEditText(text)
+
+
 def _names_in(box: QgsProcessingMapLayerComboBox) -> QComboBox:
     """Return the list of layers and files in a box of QGIS."""
     return box.findChildren(QComboBox)[0]  # of this class, since PyQt does not know its own
@@ -212,3 +212,29 @@ def _clouds(project: QgsProject | None) -> list[QgsPointCloudLayer]:
 def _show_choice(names: QComboBox) -> None:
     """Show a chosen layer without its CRS, as QGIS wants it in a box in which one can type."""
     names.setEditText(names.itemText(names.currentIndex()))
+
+
+def _cloud_widget(parameter: QgsProcessingParameterDefinition, dialog: QWidget) -> Any:
+    widget = own_widget(_CloudBox, parameter, dialog)
+    if is_designer(dialog):
+        # Adds inputs that are files or texts; outputs that are files are already in the list.
+        kinds = QgsProcessingParameterFile, QgsProcessingParameterString
+        widget.populateSources([kind.typeName() for kind in kinds], [], [])
+    return widget
+
+
+# In the model designer, QGIS itself only offers inputs that are layers. Without its `pdal`
+# provider, these cannot be .las and .laz files; texts are addresses.
+PointCloudWidget = widget_class(_cloud_widget)
+RasterWidget = widget_class(partial(own_widget, _LayerBox))
+
+
+def _attribute_widget(parameter: QgsProcessingParameterDefinition, dialog: QWidget) -> Any:
+    if is_designer(dialog):
+        return designer_widget(parameter, dialog)
+    return _AttributeBox(parameter, kind(dialog), dialog)
+
+
+# That of QGIS takes a text table for a layer, and tells that it could not be loaded. Where it is
+# blank, QGIS 3.40 cannot save a batch.
+AttributeWidget = widget_class(_attribute_widget)

@@ -88,19 +88,15 @@ class ShippedModel(QgsProcessingModelAlgorithm):
         return self._file.stem.replace("_", "")
 
     def displayName(self) -> str:
-        """Return the name in the toolbox."""
         return tr(super().displayName())
 
     def group(self) -> str:
-        """Return the group in the toolbox."""
         return tr(super().group())
 
     def shortDescription(self) -> str:
-        """Return the tooltip."""
         return tr(super().shortDescription())
 
     def tags(self) -> list[str]:
-        """Return the words for the search of the toolbox."""
         return words_in(_WORDS[self.name()])
 
     def parameter_sets(self) -> tuple[type[ParameterSet], ...]:
@@ -185,7 +181,6 @@ class ShippedModel(QgsProcessingModelAlgorithm):
         layers.arrange(context, looks, labels, self._subject, self._stage, origin)
 
     def createInstance(self) -> ShippedModel:
-        """Return another instance."""
         return ShippedModel(self._file)
 
 

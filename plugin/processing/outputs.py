@@ -33,6 +33,12 @@ from ..styles import loaded
 from .feedback import Refusal
 from .request import Request
 
+CLOUDS = ("cloud", "points")  # kinds of outputs that are files of points
+# What reads the path of an output of a kind: parameterAsOutputLayer, and so on.
+_READ = {
+    **dict.fromkeys(CLOUDS, compat.POINT_CLOUD_OUTPUT),
+    **dict.fromkeys(("raster", "features"), "OutputLayer"),
+}
 _OF_MODELS = "QgsProcessingMultiStepFeedback"
 
 
@@ -40,7 +46,7 @@ def field_of_output(output: Output) -> QgsProcessingParameterDefinition:
     """Return the field of an output."""
     name, label = output.field_name, output.label
     optional, by_default = output.optional and not output.is_main, output.by_default
-    if output.kind in ("cloud", "points"):
+    if output.kind in CLOUDS:
         field = compat.point_cloud_output(name, label, point_cloud_formats())
         field.setFlags(field.flags() | compat.OPTIONAL if optional else field.flags())
     elif output.kind == "raster":
@@ -139,23 +145,17 @@ def places_of(request: Request) -> list[Path]:
 
 
 def path_of(request: Request, output: Output) -> str:
-    """Return the path of an output that is not a point cloud; empty if the user leaves it out."""
+    """Return the path of an output, empty if the user leaves it out; QGIS will not load a point
+    cloud that it cannot show.
+    """
+    name, is_cloud = output.field_name, output.kind in CLOUDS
     # QGIS would make a layer of an empty path, and say after the run that it is not there.
-    if is_blank(request, output.field_name):
-        return ""
-    is_layer = output.kind in ("raster", "features")
-    return str(request.read("OutputLayer" if is_layer else "FileOutput", output.field_name))
-
-
-def cloud_path_of(request: Request, name: str) -> str:
-    """Return the path of an output point cloud; do not load it if QGIS cannot show it."""
-    path = ""
-    if not is_blank(request, name):
-        path = request.read(compat.POINT_CLOUD_OUTPUT, name)
+    read = _READ.get(output.kind, "FileOutput")
+    path = "" if is_blank(request, name) else str(request.read(read, name))
     field = request.algorithm.parameterDefinition(name)
-    if not path and not field.flags() & compat.OPTIONAL:
+    if is_cloud and not path and not field.flags() & compat.OPTIONAL:
         raise Refusal(mark("Choose a file: {}."), field.description())
-    if not compat.can_load(path):
+    if is_cloud and not compat.can_load(path):
         do_not_load(request.context, [path])
     return path
 

@@ -73,18 +73,13 @@ def without_provider(source: str) -> str:
 
 def add_remote(algorithm: QgsProcessingAlgorithm, has_area: bool) -> None:
     """Add the fields for remote inputs to a dialog, as advanced parameters."""
-    fields = [
-        QgsProcessingParameterNumber(
-            LIMIT, "Limit of the download [GB]", compat.NUMBER, MOST, True, 0.0, 100_000.0
-        )
-    ]
-    helps = {LIMIT: LIMIT_HELP, PART: _PART_HELP}
-    if not has_area:
-        label = "Extent of a remote point cloud"
-        fields.insert(0, QgsProcessingParameterExtent(PART, label, None, True))
-    for field in fields:
+    part = QgsProcessingParameterExtent(PART, "Extent of a remote point cloud", None, True)
+    limit = QgsProcessingParameterNumber(
+        LIMIT, "Limit of the download [GB]", compat.NUMBER, MOST, True, 0.0, 100_000.0
+    )
+    for field, help in ((part, _PART_HELP), (limit, LIMIT_HELP))[has_area:]:
         field.setFlags(field.flags() | compat.ADVANCED)
-        algorithm.addParameter(field, helps[field.name()])
+        algorithm.addParameter(field, help)
 
 
 def extent_of_map() -> str | None:

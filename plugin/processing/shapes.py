@@ -141,7 +141,8 @@ def _area_in_own_crs(request: Request) -> Area:
         crs = request.read("ExtentCrs", "EXTENT")
         if not crs.isValid():
             return Area(box_of(request, "EXTENT", CloudCrs(stated="WKT:")))
-        polygons = [_rings_of(request.read("ExtentGeometry", "EXTENT", crs).constGet())]
+        shape = request.read("ExtentGeometry", "EXTENT", crs)  # which owns what it gives out
+        polygons = [_rings_of(shape.constGet())]
     return Area(None, Shapes(polygons, text_of(crs), "The area"))
 
 

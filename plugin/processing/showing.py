@@ -23,7 +23,7 @@ from ..styles import clouds, layers
 from ..styles.rasters import is_class_raster
 from .commands import command_of
 from .feedback import FeedbackProgress
-from .outputs import cannot_show, class_raster_of, cloud_path_of, do_not_load, path_of
+from .outputs import CLOUDS, cannot_show, class_raster_of, do_not_load, path_of
 from .request import Request, Resolved
 
 # Titles of the layers of classes, by what a tool for points shows.
@@ -62,32 +62,21 @@ class ToolRun:
         is_run_in_tiles = self.tool.writes_points or isinstance(self.tool, Composition)
         return is_run_in_tiles and self.resolved.points.is_survey
 
-    def paths(self) -> dict[str, str]:
-        """Return the paths of the outputs by their names; empty for those that are left out."""
-        return {output.name: self.path(output) for output in self.outputs}
-
     def path(self, output: Output) -> str:
-        """Return the path of an output."""
-        if output.kind in ("cloud", "points"):
-            return self._cloud_path(output.field_name)
+        """Return the path of an output, empty if it is left out; for points of many files a folder
+        of this name without its ending.
+        """
+        # Asked only in the thread of the work: QGIS loads the layers of its context.
         path = path_of(self.request, output)
+        if output.kind in CLOUDS and not isinstance(self.tool, (MapTool, Composition)):
+            if self.resolved.points.is_survey:
+                do_not_load(self.context, [path])
+                return str(Path(path).with_name(split_name(Path(path))[0]))
+            if not compat.can_load(path):
+                self.progress.info(cannot_show(path, "will be"))
         if path and output.needs and self.resolved.given[output.needs].value is None:
             do_not_load(self.context, [path])
             return ""
-        return path
-
-    def _cloud_path(self, name: str) -> str:
-        """Return the path of a point cloud, for many files a folder of this name without its
-        ending; tell the user if QGIS cannot show it.
-        """
-        path = cloud_path_of(self.request, name)
-        if isinstance(self.tool, MapTool):
-            return path
-        if self.resolved.points.is_survey:
-            do_not_load(self.context, [path])
-            return str(Path(path).with_name(split_name(Path(path))[0]))
-        if not compat.can_load(path):
-            self.progress.info(cannot_show(path, "will be"))
         return path
 
     def work(self) -> Results:
@@ -95,7 +84,8 @@ class ToolRun:
         # Imported here, so that QGIS starts faster.
         from ...algorithms.tools.running import run
 
-        paths, resolved = self.paths(), self.resolved
+        paths = {output.name: self.path(output) for output in self.outputs}
+        resolved = self.resolved
         self.progress.command(command_of(self.tool, self.outputs, paths, resolved))
         inputs = resolved.values
         if not isinstance(self.tool, FileTool):

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from functools import partial
 from pathlib import Path
 from typing import Any, Callable, Iterator, NamedTuple, Sequence
 
@@ -50,7 +49,7 @@ from .runs import MADE_AS
 from .shapes import BOUNDARY, area_of, box_of, file_for_command, layer_shapes
 
 # As names, so that widgets are imported only in dialogs, not in qgis_process.
-_ATTRIBUTE_WIDGET = f"{__package__}.attribute_widget.AttributeWidget"
+_ATTRIBUTE_WIDGET = f"{__package__}.layer_widgets.AttributeWidget"
 _RASTER_WIDGET = f"{__package__}.layer_widgets.RasterWidget"
 _LAYERS = {"lines": compat.LINES, "polygons": compat.POLYGONS}
 # Default and layer of the fields for attributes.
@@ -123,32 +122,14 @@ def _one(make: Callable[..., Field], note: str = "") -> Callable[[Input], Fields
 _NEEDED = ("cloud", "clouds", "address", "raster", "terrain")
 
 
-def _cloud_field(name: str, label: str, default: None, optional: bool) -> Field:
-    return (SurveyInput if optional else PointCloudInput)(name, label, default, optional)
-
-
-def _words_field(name: str, label: str, default: None, optional: bool) -> Field:
-    return QgsProcessingParameterString(name, label, default, False, optional)
-
-
-def _attribute_field(name: str, label: str, default: None, optional: bool) -> Field:
-    return QgsProcessingParameterField(name, label, *_ATTRIBUTES[name], optional=optional)
-
-
-def _layer_field(
-    kind: object,
-    name: str,
-    label: str,
-    default: None,
-    optional: bool,
-    type: type = QgsProcessingParameterFeatureSource,
-) -> Field:
-    return type(name, label, [kind], default, optional)
+def _layer(kind: object, field: Any = QgsProcessingParameterFeatureSource) -> Callable[..., Field]:
+    """Return what makes the field of a layer of a kind."""
+    return lambda name, label, *given: field(name, label, [kind], *given)
 
 
 def _area_fields(declared: Input) -> Fields:
     extent = QgsProcessingParameterExtent("EXTENT", "Extent", None, True)
-    boundary = _layer_field(compat.POLYGONS, *BOUNDARY, None, True)
+    boundary = _layer(compat.POLYGONS)(*BOUNDARY, None, True)
     helps = help_of_area(declared.help)
     yield (_advanced(extent) if declared.advanced else extent), helps[0]
     yield _advanced(boundary), helps[1]
@@ -314,10 +295,6 @@ def _polygons(request: Request, declared: Input, resolved: Resolved) -> GivenInp
     return GivenInput(declared.of(tuple(rings for rings, _ in shapes)), {declared.name: file})
 
 
-def _checkpoints(request: Request, declared: Input, resolved: Resolved) -> GivenInput:
-    return GivenInput(*checkpoints_of(request, resolved.crs))
-
-
 # When inputs are read: the files, which name the run and are checked before it; before the work,
 # in the main thread; when the work begins, in its thread, since it can take long.
 FILES, BEFORE, LATE = range(3)
@@ -333,24 +310,43 @@ class Kind(NamedTuple):
 
 
 KINDS = {
-    "cloud": Kind(_one(_cloud_field, _CLOUD_HELP), _cloud, FILES),
+    "cloud": Kind(
+        _one(lambda *given: (SurveyInput if given[-1] else PointCloudInput)(*given), _CLOUD_HELP),
+        _cloud,
+        FILES,
+    ),
     "clouds": Kind(_one(SurveyInput, _ANY_CLOUD_HELP), _cloud, FILES),
     "files": Kind(_files_fields, lambda request, *_: _of_sources(clouds_of(request)), FILES),
     "survey": Kind(_survey_fields, lambda request, *_: _of_sources(survey_of(request)), FILES),
     "address": Kind(_one(PointCloudInput, LAYER_HELP), _address, FILES),
     "raster": Kind(_one(QgsProcessingParameterRasterLayer), _raster, FILES),
     "terrain": Kind(_one(TerrainInput), _terrain, FILES),
-    "crs": Kind(_one(QgsProcessingParameterCrs), _crs),
+    "crs": Kind(
+        _one(QgsProcessingParameterCrs),
+        _crs,
+    ),
     "extent": Kind(_one(QgsProcessingParameterExtent), _extent),
-    "words": Kind(_one(_words_field, "Words are separated by commas."), _words),
+    "words": Kind(
+        _one(
+            lambda name, label, *_: QgsProcessingParameterString(name, label, None, False, True),
+            "Words are separated by commas.",
+        ),
+        _words,
+    ),
     "area": Kind(_area_fields, _area),
     "target": Kind(_parts, _target),
     "corrections": Kind(_parts, _corrections),
     "constraints": Kind(_parts, _constraints),
-    "checkpoints": Kind(_parts, _checkpoints, LATE),
-    "polygons": Kind(_one(partial(_layer_field, compat.POLYGONS)), _polygons, LATE),
+    "checkpoints": Kind(_parts, checkpoints_of, LATE),
+    "polygons": Kind(_one(_layer(compat.POLYGONS)), _polygons, LATE),
     # Parts of the groups above.
-    "lines": Kind(_one(partial(_layer_field, compat.LINES))),
-    "points": Kind(_one(partial(_layer_field, compat.TABLES, type=CheckpointInput), _POINTS_HELP)),
-    "attribute": Kind(_one(_attribute_field)),
+    "lines": Kind(_one(_layer(compat.LINES))),
+    "points": Kind(_one(_layer(compat.TABLES, CheckpointInput), _POINTS_HELP)),
+    "attribute": Kind(
+        _one(
+            lambda name, label, *_: QgsProcessingParameterField(
+                name, label, *_ATTRIBUTES[name], optional=True
+            )
+        )
+    ),
 }

@@ -6,7 +6,8 @@ uses the result. The model designer needs another type of widget than other dial
 
 from __future__ import annotations
 
-from typing import Any, Iterable, TypeVar
+from functools import partial
+from typing import Any, Callable, Iterable, TypeVar
 
 from qgis.core import (
     QgsProcessingContext,
@@ -39,29 +40,6 @@ _CHECKED = 2
 Widget = TypeVar("Widget", bound=QWidget)
 
 
-class ChoiceWidget:
-    """Makes the widget of a choice: with labels, but with values in the model designer."""
-
-    def __new__(cls, parameter: ChoiceParameter, dialog: QWidget, *_: object) -> Any:
-        """Return a widget, not an instance of this class."""
-        if is_designer(dialog):
-            return designer_widget(parameter, dialog)
-        box = _ChoicesBox if parameter.allowMultiple() else _ChoiceBox
-        if parameter.name() == DELIVERY and kind(dialog) == QgsProcessingGui.WidgetType.Standard:
-            box = _DeliveryBox
-        return box(parameter, kind(dialog), dialog)
-
-
-class CheckWidget:
-    """Makes the widget of a boolean: a box that has always a value, so it is not "[optional]"."""
-
-    def __new__(
-        cls, parameter: QgsProcessingParameterDefinition, dialog: QWidget, *_: object
-    ) -> Any:
-        """Return a widget, not an instance of this class."""
-        return own_widget(_CheckBox, parameter, dialog)
-
-
 def is_designer(dialog: QWidget) -> bool:
     """Return whether a dialog is that of a step in the model designer."""
     return type(dialog).__name__ == "ModelerParametersDialog"
@@ -73,21 +51,21 @@ def kind(dialog: QWidget) -> QgsProcessingGui.WidgetType:
     return QgsProcessingGui.WidgetType.Batch if is_batch else QgsProcessingGui.WidgetType.Standard
 
 
+def widget_class(make: Callable[[QgsProcessingParameterDefinition, QWidget], Any]) -> type:
+    """Return a class that makes widgets of a field in place of instances of its own, as QGIS wants
+    it in the metadata of the field.
+    """
+    new = staticmethod(lambda _, parameter, dialog, *place: make(parameter, dialog))
+    return type("WidgetMaker", (), {"__new__": new})
+
+
 def own_widget(box: type, parameter: QgsProcessingParameterDefinition, dialog: QWidget) -> Any:
     """Return a box of ours in a dialog for one run, and the widget of QGIS in others."""
     if is_designer(dialog):
         return designer_widget(parameter, dialog)
     if kind(dialog) == QgsProcessingGui.WidgetType.Standard:
         return box(parameter, kind(dialog), dialog)
-    return usual_widget(parameter, dialog)
-
-
-def usual_widget(
-    parameter: QgsProcessingParameterDefinition, dialog: QWidget
-) -> QgsAbstractProcessingParameterWidgetWrapper:
-    """Return the widget of QGIS in a dialog or in batch mode."""
-    registry = QgsGui.processingGuiRegistry()
-    widget = registry.createParameterWidgetWrapper(parameter, kind(dialog))
+    widget = QgsGui.processingGuiRegistry().createParameterWidgetWrapper(parameter, kind(dialog))
     widget.setDialog(dialog)
     return widget
 
@@ -98,13 +76,6 @@ def keep(widget: Widget) -> Widget:
     # first one. Qt still points to it: to delete the widget would write into freed memory.
     widget.destroyed.connect(lambda _, widget=widget: None)
     return widget
-
-
-def _label_of(parameter: QgsProcessingParameterDefinition) -> QLabel:
-    """Return a label without "[optional]", since a box with choices has always a value."""
-    label = keep(QLabel(parameter.description()))
-    label.setToolTip(parameter.toolTip())
-    return label
 
 
 def designer_widget(
@@ -126,7 +97,6 @@ class _CheckBox(QgsAbstractProcessingParameterWidgetWrapper):
         return None
 
     def createWidget(self) -> QWidget:
-        """Return the box, checked if the default is true."""
         parameter = self.parameterDefinition()
         box = keep(QCheckBox(parameter.description()))
         box.setToolTip(parameter.toolTip())
@@ -141,7 +111,6 @@ class _CheckBox(QgsAbstractProcessingParameterWidgetWrapper):
             box.setChecked(QgsProcessingParameters.parameterAsBool(parameter, value, context))
 
     def widgetValue(self) -> bool:
-        """Return whether the box is checked."""
         return self.wrappedWidget().isChecked()
 
 
@@ -149,8 +118,10 @@ class _LabelledBox(QgsAbstractProcessingParameterWidgetWrapper):
     """A box with choices, and its label; the dialog keeps it, and what is in the same row."""
 
     def createLabel(self) -> QLabel:
-        """Return the label."""
-        return _label_of(self.parameterDefinition())
+        """Return a label without "[optional]", since a box with choices has always a value."""
+        label = keep(QLabel(self.parameterDefinition().description()))
+        label.setToolTip(self.parameterDefinition().toolTip())
+        return label
 
     def postInitialize(self, wrappers: list[QgsAbstractProcessingParameterWidgetWrapper]) -> None:
         """Let the dialog keep all wrappers of a row as long as it is open."""
@@ -166,7 +137,6 @@ class _ChoiceBox(_LabelledBox):
     """A box with the labels in the metadata of the parameter."""
 
     def createWidget(self) -> QWidget:
-        """Return the box, with the default chosen."""
         parameter = self.parameterDefinition()
         box = _narrow(keep(QComboBox()))
         if label := parameter.metadata().get(NO_CHOICE):
@@ -186,7 +156,6 @@ class _ChoiceBox(_LabelledBox):
             box.setCurrentIndex(box.findData(value))
 
     def widgetValue(self) -> str:
-        """Return the chosen value."""
         return self.wrappedWidget().currentData()
 
 
@@ -229,7 +198,6 @@ class _ChoicesBox(_LabelledBox):
     """A box with the labels in the metadata of the parameter, for several choices."""
 
     def createWidget(self) -> QWidget:
-        """Return the box, with the defaults chosen."""
         parameter = self.parameterDefinition()
         box = _narrow(keep(QgsCheckableComboBox()))
         # Not a comma, which labels contain.
@@ -267,3 +235,18 @@ def _check(box: QComboBox, values: Iterable[object]) -> None:
     for place in range(box.count()):
         is_chosen = box.itemData(place) in values
         box.setItemData(place, _CHECKED if is_chosen else _UNCHECKED, _STATE)
+
+
+def _choice_widget(parameter: ChoiceParameter, dialog: QWidget) -> Any:
+    if is_designer(dialog):
+        return designer_widget(parameter, dialog)
+    box = _ChoicesBox if parameter.allowMultiple() else _ChoiceBox
+    if parameter.name() == DELIVERY and kind(dialog) == QgsProcessingGui.WidgetType.Standard:
+        box = _DeliveryBox
+    return box(parameter, kind(dialog), dialog)
+
+
+# A choice shows labels, but values in the model designer. A boolean has always a value, so it is
+# not "[optional]".
+ChoiceWidget = widget_class(_choice_widget)
+CheckWidget = widget_class(partial(own_widget, _CheckBox))
