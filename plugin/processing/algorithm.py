@@ -309,7 +309,7 @@ class ToolAlgorithm(QgsProcessingAlgorithm):
         subject = run.resolved.subject or tr(self.tool.title)
         for path in labels:
             remember_origin(path, subject)
-        origin = Origin.of(self.displayName(), self._settings, run.progress.commands)
+        origin = Origin.of(self.displayName(), self._settings, tuple(run.progress.commands))
         layers.arrange(run.context, looks, labels, subject, self._stage, origin)
         if results and is_remembered(self):
             project = run.context.project()

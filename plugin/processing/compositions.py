@@ -105,7 +105,7 @@ def _deliver(run: ToolRun, name: str) -> Results:
     folder = run.request.read("String", FOLDER)
     words = [name, *resolved.arguments, folder]
     named = {one for one in names_of_values() if not run.request.is_empty(one.upper())}
-    progress.command(command_line("deliver", words, sets, resolved.options, named))
+    progress.commands.append(command_line("deliver", words, sets, resolved.options, named))
     inputs = resolved.values
     work = run.tool.work
     done = work(resolved.points, folder, name, sets, inputs, progress, None, named)
@@ -173,8 +173,7 @@ def _make_own(run: ToolRun) -> Results:
     drawn = {name.upper(): path for name, path in paths.items() if path}
     done = run_tool(map_tool("classify"), given, {**paths, "output": target}, sets, progress)
     written = cloud and str(done.vpc or cloud)
-    for line in _commands(resolved, written, drawn):
-        progress.command(line)
+    progress.commands += _commands(resolved, written, drawn)
     point_count = sum(done.class_counts.values())
     progress.share(done.ground_count, point_count, bool(given["area"]))
     if interval := done.drawn.get("contours"):

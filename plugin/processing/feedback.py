@@ -43,7 +43,7 @@ class FeedbackProgress(Progress):
         self._feedback, self._begun = feedback, time.monotonic()
         self._done = 0.0  # before what is reported
         self._choices: list[str] = []
-        self._commands: list[str] = []
+        self.commands: list[str] = []  # that do the same without QGIS, for the end of the log
 
     @property
     def is_of_dialog(self) -> bool:
@@ -84,15 +84,6 @@ class FeedbackProgress(Progress):
         share = ground / max(count, 1)
         self.info(f"{ground:,} of {count:,} points{where} are ground ({share:.1%}).")
 
-    def command(self, text: str) -> None:
-        """Store a command that does the same without QGIS, for the end of the log."""
-        self._commands.append(text)
-
-    @property
-    def commands(self) -> tuple[str, ...]:
-        """The commands that do the same without QGIS."""
-        return tuple(self._commands)
-
     def end(self, class_counts: Mapping[int, int], has_failed: bool) -> None:
         """End the log with points of each class, automatic choices, time, and the commands of a run
         that has not failed.
@@ -105,11 +96,10 @@ class FeedbackProgress(Progress):
         for choice in self._choices:
             self.info(f"Chosen automatically: {choice}")
         self.info(f"Time: {time.monotonic() - self._begun:.1f} s")
-        if has_failed:
+        if has_failed or not self.commands:
             return
-        if self._commands:
-            self.info("The same without QGIS:")
-        for command in self._commands:
+        self.info("The same without QGIS:")
+        for command in self.commands:
             self._feedback.pushCommandInfo(command)
 
 

@@ -131,17 +131,11 @@ def _value(request: Request, declaration: Declaration) -> object:
         return re.split(r"[\s,;]+", text) if text else None
     if name not in request.parameters:
         return declaration.default
-    if isinstance(given, str) and not _is_number(given):
-        # parameterAsDouble would silently return the default.
-        text = mark("{label} must be a number, not {value}.")
-        raise Refusal(text, label=declaration.label, value=repr(given))
+    if isinstance(given, str):
+        try:
+            float(given)
+        except ValueError:  # parameterAsDouble would silently return the default
+            text = mark("{label} must be a number, not {value}.")
+            raise Refusal(text, label=declaration.label, value=repr(given)) from None
     # Also for integers as a double, so that 2.5 is refused and does not become 2.
     return request.read("Double", name)
-
-
-def _is_number(text: str) -> bool:
-    try:
-        float(text)
-    except ValueError:
-        return False
-    return True

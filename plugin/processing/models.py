@@ -9,7 +9,6 @@ from qgis.core import (
     QgsProcessingContext,
     QgsProcessingFeedback,
     QgsProcessingModelAlgorithm,
-    QgsProcessingParameterDefinition,
     QgsProcessingParameterEnum,
 )
 
@@ -137,7 +136,9 @@ class ShippedModel(QgsProcessingModelAlgorithm):
         feedback: QgsProcessingFeedback,
     ) -> dict[str, object]:
         """Run the model, with defaults for missing inputs, which QGIS would leave empty."""
-        defaults = {field.name(): _default(field) for field in self.parameterDefinitions()}
+        defaults = {field.name(): field.defaultValue() for field in self.parameterDefinitions()}
+        for field in self.destinationParameterDefinitions():
+            defaults[field.name()] = QgsProcessing.TEMPORARY_OUTPUT
         tell_of_unknown(self, parameters, feedback)
         given = {**defaults, **parameters}
         for field in self.destinationParameterDefinitions():
@@ -182,11 +183,6 @@ class ShippedModel(QgsProcessingModelAlgorithm):
 
     def createInstance(self) -> ShippedModel:
         return ShippedModel(self._file)
-
-
-def _default(field: QgsProcessingParameterDefinition) -> object:
-    """Return the value of a field that is not given; outputs are temporary files."""
-    return QgsProcessing.TEMPORARY_OUTPUT if field.isDestination() else field.defaultValue()
 
 
 def _choice(drawn: QgsProcessingParameterEnum) -> ChoiceParameter:

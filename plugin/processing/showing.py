@@ -86,7 +86,7 @@ class ToolRun:
 
         paths = {output.name: self.path(output) for output in self.outputs}
         resolved = self.resolved
-        self.progress.command(command_of(self.tool, self.outputs, paths, resolved))
+        self.progress.commands += [command_of(self.tool, self.outputs, paths, resolved)]
         inputs = resolved.values
         if not isinstance(self.tool, FileTool):
             inputs.update(input=resolved.points, crs=resolved.stated)

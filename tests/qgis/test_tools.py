@@ -3,6 +3,7 @@
 import laspy
 import numpy as np
 import pytest
+from support import Scene
 from toy_tool import TOOL, add_toy
 
 ID = f"bareearth:{TOOL.identifier}"
@@ -46,3 +47,18 @@ def test_a_new_tool_runs(registry, provider, scene, tmp_path):
 
 def test_without_it_the_toolbox_is_as_before(registry):
     assert registry.createAlgorithmById(ID) is None
+
+
+def test_a_check_of_other_values_leaves_a_prepared_run_alone(
+    registry, scene, tmp_path, context, log
+):
+    other = Scene(tmp_path, ".las")
+    scene.with_classes(scene.path)
+    values = {"INPUT": str(scene.path), "OUTPUT": str(tmp_path / "heights.laz")}
+    algorithm = registry.createAlgorithmById("bareearth:heightaboveground")
+    assert algorithm.prepare(values, context, log)
+    others = {"INPUT": str(other.path), "OUTPUT": str(tmp_path / "others.laz")}
+    assert algorithm.checkParameterValues(others, context)[0]
+    results = algorithm.runPrepared(values, context, log)
+    assert results["OUTPUT"] == values["OUTPUT"]
+    assert f"{scene.path} {values['OUTPUT']}" in log.text and "scene.las" not in log.text
