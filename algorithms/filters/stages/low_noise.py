@@ -236,6 +236,8 @@ class BelowWater(PointRule):
         counts = cells.counts if is_finite.all() else cells.counts_of(is_finite)
         searched = density(counts) < self.sparse
         searched &= self._deep(points, cells, lowest)
+        # The border of the survey cuts the outermost cells, so that they have fewer points.
+        searched[[0, -1]] = searched[:, [0, -1]] = False
         if not searched.any():
             return np.zeros(points.count, dtype=bool)
         z, x, y = (-points.z[lowest], points.x[lowest], points.y[lowest])

@@ -14,7 +14,7 @@ _PIT_SHARE = 0.9
 # Most rounds in which regions are searched, each without the ones found before.
 _ROUNDS = 3
 # Wider regions, in metres, may be table mountains.
-_WIDE = 25.0
+_WIDE = 10.0
 # A side of a region is a wall if nearly all of its drop within `_OF_SIDE` metres is a drop within
 # `_OF_WALL` metres: the side of the blocks in which objects are searched.
 _OF_WALL = 2.0
