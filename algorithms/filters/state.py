@@ -125,7 +125,7 @@ class State:
     grids: list[GridState] = field(default_factory=list)  # one or two grids of lowest points
     # intp (k,): Indices of the points that are taken for ground, and of others that may join them.
     seeds: np.ndarray = field(default_factory=lambda: np.empty(0, dtype=np.intp))
-    waiting: np.ndarray = field(default_factory=lambda: np.empty(0, dtype=np.intp))
+    candidates: np.ndarray = field(default_factory=lambda: np.empty(0, dtype=np.intp))
     # float (rows, columns): Metres by which the mean surface of the seeds rises over a cell.
     rise: np.ndarray | None = None
     # float64 (rows, columns, 2): Lowest and highest height of ground points on the cells of the

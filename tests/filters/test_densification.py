@@ -30,11 +30,11 @@ def joining(candidates, heights, surface=plane, **rules):
     """Return which candidates join vertices on a surface."""
     xy, z = np.vstack((SEEDS, candidates)), np.append(surface(SEEDS), heights)
     points, first = Points(*xy.T.copy(), z), np.arange(len(SEEDS))
-    waiting = np.arange(len(SEEDS), len(xy))
-    state = State(points, Progress(), seeds=first, waiting=waiting)
+    candidates = np.arange(len(SEEDS), len(xy))
+    state = State(points, Progress(), seeds=first, candidates=candidates)
     state.spacing, state.grids = 10.0, [GridState.of(points, 10.0, 2.0)]
     dataclasses.replace(RULES, **rules).apply(state)
-    return np.isin(waiting, state.seeds)
+    return np.isin(candidates, state.seeds)
 
 
 def joins(height, **rules):

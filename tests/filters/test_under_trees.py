@@ -86,12 +86,12 @@ def test_points_join_at_a_break_only_where_it_is_open(thick, joins):
     cells = Cells.over(points, 1.0)
     lowest = cells.lowest_points(points)
     edge = (points.x[lowest] > 20.0) & (points.x[lowest] < 22.0) & ~crown[lowest]
-    seeds, waiting = lowest[~edge & ~crown[lowest]], lowest[edge]
-    state = State(points, Progress(), seeds=seeds, waiting=waiting)
+    seeds, candidates = lowest[~edge & ~crown[lowest]], lowest[edge]
+    state = State(points, Progress(), seeds=seeds, candidates=candidates)
     state.grids = [GridState.of(points, 1.0, 1.0)]
     for rule in (Plants(), LevelSeeds()):
         rule.apply(state)
-    assert np.isin(waiting, state.seeds).mean() == pytest.approx(float(joins), abs=0.1)
+    assert np.isin(candidates, state.seeds).mean() == pytest.approx(float(joins), abs=0.1)
 
 
 def wood(count=20_000, side=60.0):
@@ -186,7 +186,7 @@ def test_a_shrub_wider_than_the_nearest_seeds_is_no_ground():
     Shrubs().apply(state)
     left = np.isin(np.arange(len(of_shrub)), state.seeds)
     assert left[of_shrub].mean() < 0.2 and left[~of_shrub].mean() > 0.99
-    assert np.array_equal(np.sort(np.append(state.seeds, state.waiting)), np.arange(len(left)))
+    assert np.array_equal(np.sort(np.append(state.seeds, state.candidates)), np.arange(len(left)))
 
 
 @pytest.mark.parametrize("slope", [0.0, 0.5])
@@ -242,7 +242,7 @@ def test_a_lone_seed_above_those_round_a_gap_is_ground_only_if_it_is_a_rock(heig
 def test_shrubs_can_stay_where_it_is_open():
     state, of_shrub = hillside(mound)
     Shrubs(most_open=0.3).apply(state)
-    assert len(state.seeds) == len(of_shrub) and not len(state.waiting)
+    assert len(state.seeds) == len(of_shrub) and not len(state.candidates)
     Shrubs(most_open=0.99).apply(state)
     assert np.isin(np.flatnonzero(of_shrub), state.seeds).mean() < 0.2
 

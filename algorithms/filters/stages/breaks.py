@@ -43,7 +43,7 @@ class Plants(PointRule):
     """A seed above the planes of all sides is a plant, and one far below all is an outlier."""
 
     stage: ClassVar = Stage.SEEDS
-    writes: ClassVar = ("seeds", "waiting", "rise")
+    writes: ClassVar = ("seeds", "candidates", "rise")
 
     height: float = 0.1  # least height of a plant above the planes in metres
     # Least depth of an outlier below the planes in metres, beyond their misfit: planes through
@@ -52,14 +52,14 @@ class Plants(PointRule):
     where_dense: bool = True  # whether seeds of dense clouds are checked as well
 
     def apply(self, state: State) -> None:
-        """Let the wrong seeds wait."""
+        """Demote the wrong seeds to candidates."""
         if state.spacing <= DENSE_SPACING and not self.where_dense:
             return
         cells, spacing = state.grids[0].cells, state.seed_spacing
         mean = mean_surface(state.points, state.seeds, cells, spacing)
         state.rise = steepness(mean, cells.size) * cells.size
         wrong = self._wrong(state.points, state.seeds, cells, mean, state.rise, _reach(spacing))
-        state.waiting = np.append(state.waiting, state.seeds[wrong])
+        state.candidates = np.append(state.candidates, state.seeds[wrong])
         state.seeds = state.seeds[~wrong]
 
     def _wrong(
@@ -95,12 +95,12 @@ class Plants(PointRule):
 
 @dataclass(frozen=True)
 class LevelSeeds(PointRule):
-    """A waiting point on open land is ground if it lies on the plane of the seeds on one side."""
+    """A candidate on open land is ground if it lies on the plane of the seeds on one side."""
 
     # This finds ground at breaks, in grids whose seeds have gaps there.
 
     stage: ClassVar = Stage.SEEDS
-    writes: ClassVar = ("seeds", "waiting")
+    writes: ClassVar = ("seeds", "candidates")
 
     level: float = 0.25  # largest distance in metres from the plane
     misfit: float = 0.3  # largest misfit of the plane in metres
@@ -115,42 +115,42 @@ class LevelSeeds(PointRule):
         if state.spacing <= DENSE_SPACING:
             return
         points, cells, spacing = state.points, state.grids[0].cells, state.seed_spacing
-        is_open = (openness_of(state) >= self.openness).ravel()[cells.index[state.waiting]]
-        state.waiting, never = state.waiting[is_open], state.waiting[~is_open]
+        is_open = (openness_of(state) >= self.openness).ravel()[cells.index[state.candidates]]
+        state.candidates, never = state.candidates[is_open], state.candidates[~is_open]
         for _ in range(self.passes):
-            joins = self._level(points, state.seeds, state.waiting, cells, spacing)
-            state.seeds = np.append(state.seeds, state.waiting[joins])
-            state.waiting = state.waiting[~joins]
-        state.waiting = np.append(state.waiting, never)
+            joins = self._level(points, state.seeds, state.candidates, cells, spacing)
+            state.seeds = np.append(state.seeds, state.candidates[joins])
+            state.candidates = state.candidates[~joins]
+        state.candidates = np.append(state.candidates, never)
 
     def _level(
         self,
         points: Points,
         seeds: np.ndarray,
-        waiting: np.ndarray,
+        candidates: np.ndarray,
         cells: Cells,
         spacing: float,
     ) -> np.ndarray:
-        """Return which waiting points lie on the plane of the seeds on one side."""
+        """Return which candidates lie on the plane of the seeds on one side."""
         step = int(np.ceil(self.step * spacing / cells.size))
         margin = self.level + self.steepest * step * cells.size
-        cell, z = cells.index[waiting], points.z[waiting]
+        cell, z = cells.index[candidates], points.z[candidates]
 
         def extreme(sign: float) -> np.ndarray:
             return sign * _around(cells, points, seeds, step, sign).ravel()[cell]
 
         low, high = in_threads(extreme, (1.0, -1.0))
-        candidates = np.flatnonzero((z >= low - margin) & (z <= high + margin))
-        near = _near(cells, seeds, waiting[candidates], _reach(spacing))
+        tested = np.flatnonzero((z >= low - margin) & (z <= high + margin))
+        near = _near(cells, seeds, candidates[tested], _reach(spacing))
 
         def fit(_: slice, rise: np.ndarray, *plane: np.ndarray) -> np.ndarray:
             return (plane[-1] <= self.misfit) & (np.abs(rise) <= self.level)
 
         planes = Sides(points.take(seeds[near]), _reach(spacing)).planes(
-            points.take(waiting[candidates]), enough=fit
+            points.take(candidates[tested]), enough=fit
         )
-        joins = np.zeros(len(waiting), dtype=bool)
-        joins[candidates] = fit(slice(None), *planes).any(axis=1)
+        joins = np.zeros(len(candidates), dtype=bool)
+        joins[tested] = fit(slice(None), *planes).any(axis=1)
         return joins
 
 

@@ -40,13 +40,13 @@ _MOST_ROUNDS = 8
 
 @dataclass(frozen=True)
 class Densification(PointRule):
-    """A waiting point whose distance and angle to its facet of the TIN are small is ground."""
+    """A candidate whose distance and angle to its facet of the TIN are small is ground."""
 
     # Axelsson (2000), section 3. In each round, every facet takes the nearest of these points as a
     # vertex. Distances are in metres, angles in degrees.
 
     stage: ClassVar = Stage.SURFACE
-    writes: ClassVar = ("seeds", "waiting")
+    writes: ClassVar = ("seeds", "candidates")
 
     # Largest angle between the facet and the line from one of its corners to the point.
     iteration_angle: float = 15.0
@@ -70,34 +70,34 @@ class Densification(PointRule):
     in_woods: bool = False
 
     def apply(self, state: State) -> None:
-        """Let waiting points join the seeds."""
+        """Let candidates join the seeds."""
         if self.in_images is not None and state.from_images:
             nearest = min(self.in_images, self.iteration_distance)
             dataclasses.replace(self, iteration_distance=nearest, in_images=None).apply(state)
             return
-        points, cells, waiting = state.points, state.grids[0].cells, state.waiting
+        points, cells, candidates = state.points, state.grids[0].cells, state.candidates
         if not self.in_woods:
-            waiting = waiting[~state.grids[0].woods.ravel()[cells.index[waiting]]]
+            candidates = candidates[~state.grids[0].woods.ravel()[cells.index[candidates]]]
         heights = cells.minimum(points.z, state.seeds)
         surface, holding = inpaint(heights, first=cells.first), np.isfinite(heights)
         vertices_round = sum_of_nine(np.pad(holding.astype(np.int8), 1))
         may_join = vertices_round <= _MOST_VERTICES_ROUND
         if self.level is not None:
-            above = with_lower(heights, cells, points, waiting) - surface
+            above = with_lower(heights, cells, points, candidates) - surface
             may_join &= _has_level_neighbour(above, self.level) | (
                 np.abs(above) <= self.noise_distance
             )
-        waiting = waiting[may_join.ravel()[cells.index[waiting]]]
-        candidates = points.take(waiting)
-        distance = np.abs(candidates.z - cells.interpolated(surface, candidates.x, candidates.y))
-        slope = _steepness_at(cells, surface, candidates)
+        candidates = candidates[may_join.ravel()[cells.index[candidates]]]
+        tested = points.take(candidates)
+        distance = np.abs(tested.z - cells.interpolated(surface, tested.x, tested.y))
+        slope = _steepness_at(cells, surface, tested)
         reachable = distance <= _REACHABLE * self.iteration_distance * np.hypot(1.0, slope)
         state.progress(0.1)
         reach = math.ceil(max(max(state.spacing, 1.0) / cells.size, 1.0))
         survey = _Survey(points, cells, _ring(cells, surface), reach)
         part = state.progress.part(0.1, 1.0)
-        joined = _joined(survey, state.seeds, waiting[reachable], self, part)
-        state.seeds, state.waiting = np.append(state.seeds, joined), waiting[:0]
+        joined = _joined(survey, state.seeds, candidates[reachable], self, part)
+        state.seeds, state.candidates = np.append(state.seeds, joined), candidates[:0]
 
 
 def with_lower(heights: np.ndarray, cells: Cells, points: Points, added: np.ndarray) -> np.ndarray:
@@ -192,32 +192,32 @@ def _multiples(start: float, end: float) -> np.ndarray:
 def _joined(
     survey: _Survey,
     first: np.ndarray,
-    waiting: np.ndarray,
+    candidates: np.ndarray,
     rules: Densification,
     progress: Progress,
 ) -> np.ndarray:
-    """Return the indices of the waiting points that join the first vertices, round by round."""
+    """Return the indices of the candidates that join the first vertices, round by round."""
     vertices = first
     for round_ in range(_MOST_ROUNDS):
-        candidates = survey.points.take(waiting)
-        corners = survey.triangles(vertices, candidates.x, candidates.y)
+        tested = survey.points.take(candidates)
+        corners = survey.triangles(vertices, tested.x, tested.y)
         progress(1.0 - 0.5 ** (round_ + 0.5))  # each round has less to do than the one before
         inside = corners[:, 0] >= 0
-        waiting, corners, candidates = waiting[inside], corners[inside], candidates.take(inside)
-        new, mirrored = _round(survey, vertices, corners, candidates, rules)
+        candidates, corners, tested = candidates[inside], corners[inside], tested.take(inside)
+        new, mirrored = _round(survey, vertices, corners, tested, rules)
         if not len(new):
             break
-        vertices = np.concatenate((vertices, waiting[new]))
+        vertices = np.concatenate((vertices, candidates[new]))
         # All other points lie in the same triangle as before, which did not take them.
         x, y, _ = survey.places(corners)
-        changed = mirrored | lost_triangles(x, y, candidates.x[new], candidates.y[new])
+        changed = mirrored | lost_triangles(x, y, tested.x[new], tested.y[new])
         changed[new] = False
-        waiting = waiting[changed]
+        candidates = candidates[changed]
         progress(1.0 - 0.5 ** (round_ + 1.0))
     return vertices[len(first) :]
 
 
-def _bounding(vertices: np.ndarray, waiting: np.ndarray, reach: int) -> np.ndarray:
+def _bounding(vertices: np.ndarray, candidates: np.ndarray, reach: int) -> np.ndarray:
     """Return the cells whose vertices may bound a triangle in which a candidate lies."""
     # A triangulation of these vertices has the same triangles near candidates as that of all. They
     # are the vertices near candidates, and those round the gaps in which candidates lie: areas of
@@ -225,12 +225,12 @@ def _bounding(vertices: np.ndarray, waiting: np.ndarray, reach: int) -> np.ndarr
     from scipy import ndimage
 
     gaps, count = ndimage.label(~within_square(np.maximum, vertices, reach), np.ones((3, 3)))
-    near = within_square(np.maximum, waiting, reach + 1)
+    near = within_square(np.maximum, candidates, reach + 1)
     wanted = np.zeros(count + 1, dtype=bool)
     wanted[gaps[near]] = True
     wanted[0] = False
     round_gaps = within_square(np.maximum, wanted[gaps], 3 * reach)
-    return vertices & (within_square(np.maximum, waiting, 2 * reach) | round_gaps)
+    return vertices & (within_square(np.maximum, candidates, 2 * reach) | round_gaps)
 
 
 def _round(

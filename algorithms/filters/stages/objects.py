@@ -267,7 +267,7 @@ class FineSeeds(PointRule):
     # Only rims need wide cells, which have no gaps.
 
     stage: ClassVar = Stage.SEEDS
-    writes: ClassVar = ("grids", "seeds", "waiting")
+    writes: ClassVar = ("grids", "seeds", "candidates")
 
     height: float  # largest distance in metres of a seed from the surface in level terrain
     size: float = 1.0  # side of a fine cell in metres
@@ -289,5 +289,5 @@ class FineSeeds(PointRule):
         of_wide = cells.index[fine.lowest]
         near &= wide.is_ground.ravel()[of_wide]
         known = wide.heights.known.ravel()[of_wide]
-        state.seeds, state.waiting = fine.lowest[near], fine.lowest[known & ~near]
+        state.seeds, state.candidates = fine.lowest[near], fine.lowest[known & ~near]
         state.grids = [fine]

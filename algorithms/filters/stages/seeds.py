@@ -60,7 +60,7 @@ class Seeds(PointRule):
     # Of two grids, a point must be ground on each on which it is the lowest of its cell.
 
     stage: ClassVar = Stage.SEEDS
-    writes: ClassVar = ("grids", "seeds", "waiting")
+    writes: ClassVar = ("grids", "seeds", "candidates")
 
     objects_wait: bool = False  # whether lowest points on objects may join later as well
     hint: str | None = None  # what the user can check if there is no seed; None for no error
@@ -70,9 +70,9 @@ class Seeds(PointRule):
         if len(state.grids) == 1:
             (grid,) = state.grids
             ground, is_open = self._judged(grid)
-            state.seeds, state.waiting = grid.lowest[ground], grid.lowest[~ground & is_open]
+            state.seeds, state.candidates = grid.lowest[ground], grid.lowest[~ground & is_open]
         else:
-            state.seeds, state.waiting = self._of_both(state)
+            state.seeds, state.candidates = self._of_both(state)
             del state.grids[1:]  # they take four bytes a point
         if self.hint and not len(state.seeds):
             raise NoGround(f"{_NO_SEED} {self.hint}")

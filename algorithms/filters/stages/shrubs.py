@@ -33,7 +33,7 @@ class Shrubs(PointRule):
     # of `Plants`.
 
     stage: ClassVar = Stage.SEEDS
-    writes: ClassVar = ("seeds", "waiting", "rise")
+    writes: ClassVar = ("seeds", "candidates", "rise")
 
     widths: tuple[float, ...] = (2.0, 4.0)  # sides of the blocks in metres, one after another
     # Least height in metres above the planes, and the share of the width of a block that is added
@@ -49,7 +49,7 @@ class Shrubs(PointRule):
     steepest: float = 1.0  # largest slope of land that is judged, rise over run
 
     def apply(self, state: State) -> None:
-        """Let the wrong seeds wait."""
+        """Demote the wrong seeds to candidates."""
         cells, woods = state.grids[0].cells, state.grids[0].woods.ravel()
         judged = np.ones(woods.size, dtype=bool)
         if self.most_open < 1.0:
@@ -59,7 +59,7 @@ class Shrubs(PointRule):
             seeds, in_wood = state.points.take(state.seeds), woods[cell]
             wrong = self._wrong(seeds, in_wood, judged[cell], width)
             wrong &= ~self._long(cells, state.seeds, wrong, in_wood)
-            state.waiting = np.append(state.waiting, state.seeds[wrong])
+            state.candidates = np.append(state.candidates, state.seeds[wrong])
             state.seeds = state.seeds[~wrong]
 
     def _wrong(
