@@ -105,7 +105,7 @@ class QgisReader(WebReader):
         with self._lock:
             self.received += len(data)
         if (length is not None and len(data) != length) or not reply.isFinished():
-            reason = f"it sent {len(data):,} bytes in place of those that it states"
+            reason = f"it sent {len(data):,} bytes, which is not its whole answer"
             raise Unfinished(reason, data=data[:length])
         return data
 

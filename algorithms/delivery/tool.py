@@ -105,8 +105,8 @@ TOOL = Composition(
     section="All in one",
     about="A delivery puts all of it into one folder: points, rasters, lines, figures of quality"
     " and accuracy, and a page that lists them (index.html). There are deliveries for a survey,"
-    " archaeology, forestry, floods and a drone site. Each has settings of its own, and those that"
-    " you give replace them. Lengths are metres.",
+    " archaeology, forestry, floods and a drone site. Each has settings of its own; your own"
+    " settings override them. Lengths are metres.",
     page="terrain-model#point-cloud-to-terrain",
     words=(
         CLOUD, GROUND, TERRAIN, CANOPY, TILES, "contours,workflow",

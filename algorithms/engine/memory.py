@@ -41,7 +41,7 @@ class Resources(ParameterSet):
         empty="all processors",
         advanced=True,
         help="How many threads compute at the same time. The result does not depend on it. Empty:"
-        " as many as there are processors.",
+        " one for each processor.",
     )
     memory: float | None = parameter(
         None,

@@ -217,8 +217,8 @@ class _Strip:
         gap = size * np.hypot(np.maximum(np.abs(row) - 1, 0), np.maximum(np.abs(column) - 1, 0))
         touched = np.argsort(gap, kind="stable")[: np.count_nonzero(gap <= radius + _ROUNDING)]
         self._gaps, self._offsets = gap[touched], (row * shape[1] + column)[touched]
-        # The lowest height in the cells that lie wholly within the radius, and in all that it
-        # touches.
+        # The lowest height in the cells that lie wholly within the radius, and in every cell that
+        # it touches.
         grid, inner = self._lowest.reshape(shape), radius / size - math.sqrt(2.0) - _ROUNDING
         self._is_inner = np.hypot(row, column)[touched] <= inner
         self._inner = self._points.z[self._own]

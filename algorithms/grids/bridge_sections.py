@@ -35,8 +35,9 @@ _FEET = 0.5
 _FACE = 0.25
 _PIT = 0.5  # share of the drop by which the ground beyond the foot must be lower than the edge
 _BEYOND = 4.0  # distance up to which this holds, m
-# Distance up to which it holds at one end at least, m, all that the relief has: beyond ditches on
-# both sides there is land, beyond the gap between two bridges another bridge on one side.
+# Distance up to which it holds at one end at least, m, as far as the relief reaches: beyond
+# ditches on both sides there is land, beyond the gap between two bridges another bridge on one
+# side.
 _BEYOND_ONE = BORDER - _FOOT
 # Radii in cells of the rings round an edge in which the lowest ground is compared with it.
 _RINGS = (0, 1, 2, 4)

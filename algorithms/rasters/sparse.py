@@ -24,7 +24,7 @@ from ..core.threads import in_threads
 SIDE = 256  # cells along a side of a tile
 # Entries of a directory of the file.
 _SUBFILE, _WIDTH, _LENGTH, _OFFSETS, _SIZES = 254, 256, 257, 324, 325
-# Those that overviews share with the raster: how cells are stored, and the value for no data.
+# Entries that overviews share with the raster: how cells are stored, and the value for no data.
 _SHARED = (258, 259, 262, 277, 284, 317, 322, 323, 338, 339, 42113)
 _BYTES = {1: 1, 2: 1, 3: 2, 4: 4, 5: 8, 7: 1, 11: 4, 12: 8, 16: 8}  # by the type of an entry
 _LONG, _LONG8 = 4, 16  # types

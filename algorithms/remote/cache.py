@@ -56,8 +56,8 @@ def cache_of(folder: str | Path | None) -> Path:
 def download(
     addresses: Sequence[str], wanted: Wanted, cache: Path, advice: str, progress: Progress
 ) -> Here:
-    """Return local files with the wanted parts of addresses, after a download of those that the
-    cache lacks; `advice` says what to do if it is too large.
+    """Return local files with the wanted parts of addresses, after a download of the parts that
+    the cache lacks; `advice` says what to do if it is too large.
     """
     with Transfers(progress, _how_to_follow()) as transfers:
         progress, clouds, is_list = transfers.progress, [], False

@@ -38,7 +38,7 @@ def joined(
         if tile.count != stated:
             progress.warning(
                 f"Tile {tile.path.stem} of {name} has {tile.count:,} points, not {stated:,} as its"
-                " hierarchy says. All that it has are used."
+                " hierarchy says. All of its points are used."
             )
         if layout is None or counts is None:
             layout = _layout(tile, wkt)

@@ -196,7 +196,7 @@ class Tool:
     # The sets of the dialog if its order differs; derived classes if its defaults differ.
     dialog_sets: tuple[type[ParameterSet], ...] = ()
     looks_around: bool = True  # whether it measures, and points round an area matter
-    # Parameters that the dialog does not fold away; None: all that are not advanced.
+    # Parameters that the dialog does not fold away; None: all parameters that are not advanced.
     shown: tuple[str, ...] | None = None
 
     @property
@@ -299,8 +299,8 @@ class FileTool(Tool):
 class MapTool(Tool):
     """A tool that makes rasters and contour lines of points, in a run of several steps."""
 
-    # Returns the steps. Its arguments are the sets, and inputs and outputs by name, none of which
-    # is needed except the points.
+    # Returns the steps. Its arguments are the sets, and inputs and outputs by name. Only the
+    # points are required.
     steps: Callable[..., tuple[Step, ...]] = _nothing
     # Without the written points; a function, since rows of rasters can be added.
     outputs: Callable[[], tuple[Output, ...]] = tuple

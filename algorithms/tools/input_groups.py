@@ -72,8 +72,8 @@ _CHECKPOINTS = (
         "columns",
         "text",
         help="The columns or attributes of the checkpoints, by name or by number from 1 on, such as"
-        " x=E,y=N,z=H,cover=Class,type=Use,name=ID. Those that are not given are recognised by"
-        " their names.",
+        " x=E,y=N,z=H,cover=Class,type=Use,name=ID. All others are recognised by their"
+        " names.",
     ),
     Input(
         "checkpoints_crs",

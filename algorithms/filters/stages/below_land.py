@@ -21,8 +21,8 @@ from .low_noise import nearest_and_apart
 class BelowLand(PointRule):
     """Points below land are low noise if the land round them goes on above them."""
 
-    # Above a real pit there is nothing at the height of the land, or leaves, of which no level has
-    # as many points as the land.
+    # Above a real pit there is nothing at the height of the land, or leaves, and no level of
+    # leaves has as many points as the land.
 
     stage: ClassVar = Stage.LOW_NOISE
     writes: ClassVar = ("points", "grids", "low_noise")

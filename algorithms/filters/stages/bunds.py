@@ -32,7 +32,7 @@ class Bunds(PointRule):
     area: float = 50.0  # least area in square metres
     height: float = 1.2  # largest median height above the ground in metres
     width: float = 6.0  # largest width in metres
-    # Sides are what lies between these shares of the height, in classes of height of which each has
+    # Sides are what lies between these shares of the height, in classes of height. Each class has
     # at least the share `least` of their mean number of points.
     sides: tuple[float, float] = (0.1, 0.8)
     classes: int = 5

@@ -94,7 +94,7 @@ def _histogram(check: Check, found: Residuals) -> Html:
 def _map(check: Check, found: Residuals, survey: Survey) -> Html:
     marks = []
     values = zip(found.xyz.tolist(), found.names, found.states, found.errors.tolist())
-    # Those that count lie on top of the same points.
+    # Checkpoints that count are drawn on top of others at the same place.
     for (x, y, _), name, state, error in sorted(values, key=lambda value: value[2] == COUNTED):
         is_counted = state == COUNTED
         colour = _colour(error, check.scale) if is_counted else NOT_COUNTED

@@ -34,7 +34,7 @@ _TIMES_SPREAD = 5.0
 # With one or two checkpoints, which have no spread, it is larger than this, in metres.
 _LEAST_OF_FEW = 5.0
 _FEW = 3
-# The largest distances between ellipsoid and geoid in metres, and those that are common on land.
+# Offsets in metres that look like the distance between ellipsoid and geoid.
 _UNDULATIONS = (8.0, 110.0)
 # A standard deviation in median absolute deviations of normal errors.
 _DEVIATION = 1.4826

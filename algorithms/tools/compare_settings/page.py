@@ -113,8 +113,8 @@ def comparison(
                 key(_LOST, "ground with the first setting, but not here"),
             ),
             paragraph(
-                "Grey is the relief of the highest points, all that stands on the ground"
-                " included. A pixel takes the colour of its more frequent difference, the"
+                "Grey is the relief of the highest points, including everything that stands on"
+                " the ground. A pixel takes the colour of its more frequent difference, the"
                 " stronger the more of its points differ."
             ),
         ),

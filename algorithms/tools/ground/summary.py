@@ -61,8 +61,8 @@ class Summary(TileSummary):
 def report_groundless_files(
     done: Sequence[Summary], unwritten: Sequence[LasFile], has_area: bool, progress: Progress
 ) -> None:
-    """Warn of files of a survey without ground, those that were not written for that reason among
-    them; refuse a survey in which no file has any.
+    """Warn of files of a survey without ground, written or not; refuse a survey in which no file
+    has any.
     """
     without = [summary.without_ground for summary in done if not summary.found_ground]
     without = [file for file in without if file.points]

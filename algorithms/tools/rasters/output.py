@@ -214,7 +214,7 @@ def _window_of(blocks: Sequence[BlockRasters], cell: float) -> CellWindow:
 def _windows(
     blocks: Sequence[BlockRasters], step: RasterJob, frame: Frame, area: Area | None
 ) -> tuple[CellWindow, CellWindow]:
-    """Return the cells of the rasters, and those that are made for them, given the area in metres;
+    """Return the cells of the rasters, and the cells computed for them, given the area in metres;
     refuse rasters without points or with too many cells.
     """
     whole = window = _window_of(blocks, step.cell)

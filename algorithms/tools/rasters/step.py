@@ -36,8 +36,8 @@ from .constraints import NO_CONSTRAINTS, Constraints
 from .fixed_terrain import fixed_terrain
 from .output import RasterJob, RasterSize, write_rasters
 
-# Points are thinned to one a cell unless there are more than ten cells a point,
-# of which hardly two would share one.
+# Points are thinned to one a cell unless there are more than ten cells a point: then hardly two
+# points would share a cell.
 _MOST_THINNED = 10
 # Bytes that a block takes for each point in it and its buffer, and for each cell.
 _BYTES_A_POINT = 130.0

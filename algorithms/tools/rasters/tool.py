@@ -124,7 +124,7 @@ TOOL = MapTool(
     about="The terrain is interpolated on the triangulation (TIN) of the ground points. The surface"
     " is the highest point of each cell without noise, and canopy height is the difference of the"
     " two. All rasters (GeoTIFF) lie on the same grid. Heights are in the vertical unit of the CRS."
-    " Only those that are asked for are made, and at least one is needed.",
+    " Only the rasters that you ask for are made; ask for at least one.",
     words=(CLOUD, TERRAIN, CANOPY, TIN, RASTER),
     page="terrain-model",
     run_name="terrain and surface",

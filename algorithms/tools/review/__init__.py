@@ -274,7 +274,7 @@ TOOL = FileTool(
     " error and area first, with the reason. Fill in their attribute 'answer': 'right', 'not"
     " ground', 'ground', which continues the ground round the place into it, or 'skip'. Give the"
     " layer to `classify()` as corrections, and to the next `review()`: places with an answer are"
-    " left out, and those that were skipped come last.",
+    " left out, and skipped places come last.",
     page="expected-error#places-to-review",
     words=(RASTER, TERRAIN, "review,error,uncertainty,confidence,quality"),
     run_name="places to review",

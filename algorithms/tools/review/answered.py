@@ -54,8 +54,8 @@ def _are_in(
 
 
 def carried_over(corrections: Corrections, rank: int) -> Iterator[Feature]:
-    """Yield the places with an answer as they were, with ranks after a given one; those that were
-    skipped come again as new ones.
+    """Yield the places with an answer as they were, with ranks after a given one; skipped places
+    come again as new ones.
     """
     columns = zip(
         corrections.polygons, corrections.classes, corrections.answers, corrections.values

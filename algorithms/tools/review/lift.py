@@ -20,8 +20,8 @@ from ...survey.files import Inputs
 from ...survey.window import taken_near
 
 _GROUND, _NOISE = 2, (7, 18)
-# Metres: how far round a place the ground is read, and the squares of which only the lowest point
-# of either kind is kept.
+# Metres: how far round a place the ground is read, and the side of the squares in which only
+# the lowest point of either kind is kept.
 _AROUND, _SQUARE = 5.0, 0.5
 _NEARLY_ALL = 0.95  # of the points that become ground rise less than the place
 
