@@ -133,8 +133,8 @@ class _Whitebox(Peer):
             result = self.filtered(environment, environment.read_lidar(str(source)))
             environment.write_lidar(result, str(target))
             before, after = laspy.read(source), laspy.read(target)
-        # Version 2 writes another scale.
-        if np.abs(np.subtract(before.xyz, after.xyz)).max() > 1e-6:
+        # Version 2 writes another scale, and version 1 cuts off the last digit now and then.
+        if (np.abs(np.subtract(before.xyz, after.xyz)) > 1.5 * before.header.scales).any():
             raise RuntimeError("the points came back in another order")
         return np.asarray(after.classification) == 2
 
