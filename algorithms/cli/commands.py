@@ -137,7 +137,7 @@ def _do_on_points(name: str, options: argparse.Namespace) -> int:
 
     done, source = _called(of_tool(name), options), options.sources[0]
     source = name_of(source) if is_address(source) else source
-    tell(options, done, done.told(Path(getattr(options, "output", source))))
+    tell(options, done, done.line(Path(getattr(options, "output", source))))
     return FAILED if done.failures else DONE
 
 

@@ -50,7 +50,7 @@ def run_jobs(
             running[pool.submit(run, number)] = number
         return list(running)
 
-    def look() -> None:
+    def poll() -> None:
         for report in reports.values():
             report.pass_on(progress)
         in_part = sum(report.fraction * weights[number] for number, report in reports.items())
@@ -58,7 +58,7 @@ def run_jobs(
 
     with contextlib.nullcontext() if outer is None else outer.lent():
         try:
-            for future in ended(start, look):
+            for future in as_they_end(start, poll):
                 number = running.pop(future)
                 result = future.result()
                 del reports[number]
@@ -69,17 +69,17 @@ def run_jobs(
             pool.shutdown(wait=False, cancel_futures=True)
 
 
-def ended(
-    start: Callable[[], Collection[Future[_Result]]], look: Callable[[], None]
+def as_they_end(
+    start: Callable[[], Collection[Future[_Result]]], poll: Callable[[], None]
 ) -> Iterator[Future[_Result]]:
     """Yield jobs when they end, until none is running; `start` starts further jobs and returns all
-    that are running, and `look` is called ten times a second and may end the loop by an error.
+    that are running, and `poll` is called ten times a second and may end the loop by an error.
     """
-    # Threads, processes and the workers of a cluster all have such futures. `look` is also called
+    # Threads, processes and the workers of a cluster all have such futures. `poll` is also called
     # when a job has ended, before the job is yielded.
     while running := start():
         done, _ = wait(running, _POLL, FIRST_COMPLETED)
-        look()
+        poll()
         yield from (future for future in running if future in done)
 
 

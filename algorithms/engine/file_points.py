@@ -154,7 +154,7 @@ class FilePoints:
             self.cloud = self.cloud or part
             yield where, part
 
-    def sparing(self, progress: Progress) -> Progress:
+    def freeing_memory(self, progress: Progress) -> Progress:
         """Return a progress that also gives memory back to the system, if points are on disk."""
         if self.is_in_memory:
             return progress
@@ -224,7 +224,7 @@ class TileResult:
     ) -> TileResult:
         """Read all points once more, and return the results for them."""
         result = cls(points, values)
-        for where, part in points.parts(points.sparing(progress), is_last=True):
+        for where, part in points.parts(points.freeing_memory(progress), is_last=True):
             result._add(where, part)
         for of_step in values:
             of_step.check()
@@ -272,7 +272,7 @@ class TileResult:
 
     def write(self, target: Path, progress: Progress) -> None:
         points, edits = self._points, self.edits(progress)
-        progress = points.sparing(progress)
+        progress = points.freeing_memory(progress)
         write_changed(points.file, target, edits, progress, points.cloud, points.memory_left)
 
     def summary(self, name: str) -> TileSummary:

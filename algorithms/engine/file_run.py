@@ -109,13 +109,13 @@ class OneFile(Execution):
 
     def _work_group(self, group: Sequence[Step], progress: Progress, outputs: Outputs) -> None:
         points, works = self._points, []
-        first = points.sparing(progress.part(0.0, 0.04))
+        first = points.freeing_memory(progress.part(0.0, 0.04))
         for step in group:
             if isinstance(step, Sink):
                 frame = points.frame_of(step)
                 step = step.with_all_points(partial(self._read, first), frame, first)
             works.append(Work(step, points.store_for(step)))
-        reading = points.sparing(progress.part(0.04, 0.08))
+        reading = points.freeing_memory(progress.part(0.04, 0.08))
         is_last = not any(isinstance(step, PointStep) for step in self.steps)
         for where, part in with_values(points.parts(reading, is_last), self._values):
             stored = points.as_stored(where, part)

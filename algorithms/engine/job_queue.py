@@ -59,19 +59,19 @@ class JobQueue:
     def work(self) -> None:
         """Run all jobs, and stop the workers; raise an error if the workers are gone."""
         try:
-            running: RunningJobs[AnyJob] = RunningJobs(self._workers, self._take)
-            for job, outcome in running.results(self._look):
+            running: RunningJobs[AnyJob] = RunningJobs(self._workers, self._next_job)
+            for job, outcome in running.results(self._report):
                 self._end(job, outcome)
             self._messages.report(self._progress)
             report_costs(self.costs, self._progress)
         finally:
             self._workers.stop()
 
-    def _take(self) -> AnyJob | None:
+    def _next_job(self) -> AnyJob | None:
         queue = self._next or self._first
         return queue.popleft() if queue else None
 
-    def _look(self, in_part: float) -> None:
+    def _report(self, in_part: float) -> None:
         """Report progress, given the weight of what running jobs have done."""
         self._progress((self._finished + in_part) / self._total)
 

@@ -67,8 +67,10 @@ class _PlannedBlock:
     def needs(self) -> frozenset[_PlannedBlock]:
         """The blocks of earlier steps that change classes, whose results this block needs."""
         box, plan = self._grid.window([self.place]), self._plan
-        tiles, blocks = plan.shown.touching(box), []
-        for number in filter(plan.gives_classes, range(self.step)):
+        tiles, blocks = plan.near_survey.touching(box), []
+        for number in range(self.step):
+            if not plan.steps[number].gives_classes:
+                continue
             places = {place for tile in tiles for place in plan.places_of(tile, number)}
             blocks += [plan.block(number, place) for place in plan.grids[number].among(places, box)]
         return frozenset(blocks)
@@ -102,7 +104,7 @@ class Plan:
         # Only points in the area of the first step get values, and those round it help.
         self._area = steps[0].area
         # Whether sinks need results that the outputs do not have.
-        self._shows_more = has_sinks and self._area is not None
+        self._needs_context = has_sinks and self._area is not None
         frame = survey_frame(survey.crs)
         self.grids = [BlockGrid(frame, step, survey.stated) for step in steps]
         # Taken before any file is read.
@@ -123,8 +125,8 @@ class Plan:
         seen = [tile for tile in survey.tiles if tile.path not in skipped]
         # The points of the others take part only in the first step.
         shown = (t for t in survey.tiles if t.path not in skipped or self._is_near(t))
-        self.shown = dataclasses.replace(survey, tiles=tuple(shown))
-        self.surveys = [survey, *[self.shown] * (len(steps) - 1)]
+        self.near_survey = dataclasses.replace(survey, tiles=tuple(shown))
+        self.surveys = [survey, *[self.near_survey] * (len(steps) - 1)]
         self.todo: list[LasFile] = []  # the files that are to be done
         for number, tile in enumerate(seen, start=1):
             try:
@@ -135,10 +137,6 @@ class Plan:
             except BareEarthError as error:
                 self.failures[tile.path] = str(error)
             progress(number / len(seen))
-
-    def gives_classes(self, number: int) -> bool:
-        """Return whether a step changes classes, so that later steps need its results."""
-        return self.steps[number].gives_classes
 
     def stamps_of(self, paths: Iterable[Path]) -> list[Stamp]:
         return [self._stamps[path] for path in sorted(paths)]
@@ -152,13 +150,13 @@ class Plan:
             self._places[key] = places_of(self.grids[step], tile)
         return self._places[key]
 
-    def _wanted(self, tile: LasFile) -> list[_PlannedBlock]:
+    def _blocks_of(self, tile: LasFile) -> list[_PlannedBlock]:
         """Return the blocks of all steps that may hold points of a file."""
         steps = range(len(self.steps))
         return [self.block(step, place) for step in steps for place in self.places_of(tile, step)]
 
     def _inputs_of(self, tile: LasFile) -> list[Path]:
-        together = tuple(self._wanted(tile))
+        together = tuple(self._blocks_of(tile))
         if together not in self._inputs:
             self._inputs[together] = sorted(set().union(*(block.inputs for block in together)))
         return self._inputs[together]
@@ -211,7 +209,7 @@ class Plan:
             )  # fmt: skip
         tiles = [
             TileJob(
-                self._files_of(self._wanted(tile)), unpacking, tile, self._targets[tile.path],
+                self._files_of(self._blocks_of(tile)), unpacking, tile, self._targets[tile.path],
                 self._fingerprint(tile),
             )
             for tile in self.todo
@@ -226,8 +224,8 @@ class Plan:
 
     def _missing(self) -> dict[tuple[int, BlockIndex], _PlannedBlock]:
         """Return the blocks whose results are needed but do not exist, sorted by their keys."""
-        todo = {block for tile in self.todo for block in self._wanted(tile)}
-        todo.update(block for tile in self._only_shown() for block in self._with_classes(tile))
+        todo = {block for tile in self.todo for block in self._blocks_of(tile)}
+        todo.update(block for tile in self._only_context() for block in self._with_classes(tile))
         missing = {}
         while todo:
             block = todo.pop()
@@ -245,19 +243,19 @@ class Plan:
 
     def _with_classes(self, tile: LasFile) -> list[_PlannedBlock]:
         """Return the blocks of a file whose results later steps and rasters need."""
-        return [block for block in self._wanted(tile) if self.gives_classes(block.step)]
+        return [block for block in self._blocks_of(tile) if self.steps[block.step].gives_classes]
 
-    def files_kept(self) -> list[Path]:
+    def files_for_sinks(self) -> list[Path]:
         """Return the results of blocks that rasters need after all files are written."""
-        tiles = [*self.todo, *self._only_shown()]
+        tiles = [*self.todo, *self._only_context()]
         return [block.file for tile in tiles for block in self._with_classes(tile)]
 
-    def _only_shown(self) -> list[LasFile]:
+    def _only_context(self) -> list[LasFile]:
         """Return the files that are not to be done, but whose results sinks need."""
-        if not self._shows_more:
+        if not self._needs_context:
             return []
         others = {tile.path for tile in self.todo}.union(self.failures)
-        tiles = (tile for tile in self.shown.tiles if tile.path not in others)
+        tiles = (tile for tile in self.near_survey.tiles if tile.path not in others)
         return [tile for tile in tiles if self._is_near(tile)]
 
     def _is_near(self, tile: LasFile, distance: float | None = None) -> bool:
@@ -275,7 +273,7 @@ class Plan:
         """Return where to read the points that rasters are made from, given the files that were
         written, and those without a point to write.
         """
-        inputs = {self._targets[tile.path].name: tile for tile in self.shown.tiles}
+        inputs = {self._targets[tile.path].name: tile for tile in self.near_survey.tiles}
         needed, read_from = set(), {}
         for output in outputs.tiles:
             tile = inputs[output.path.name]
@@ -284,8 +282,8 @@ class Plan:
             if all(block.file.exists() for block in blocks):
                 read_from[output.path] = tile
                 needed.update(blocks)
-        shown, unwritten = {tile.path for tile in self.shown.tiles}, []
-        for tile in empty if self._shows_more else ():
+        shown, unwritten = {tile.path for tile in self.near_survey.tiles}, []
+        for tile in empty if self._needs_context else ():
             blocks = self._with_classes(tile)
             if tile.path in shown and all(block.file.exists() for block in blocks):
                 read_from[tile.path] = tile

@@ -7,7 +7,7 @@ from concurrent.futures import BrokenExecutor, CancelledError, Future
 from typing import Callable, Generic, Iterator, TypeVar
 
 from ..core.errors import BareEarthError
-from .blockwise import ended
+from .blockwise import as_they_end
 from .jobs import Job, JobResult
 from .workers import Running, Workers, scheduler_gone
 
@@ -20,26 +20,26 @@ _DIED = (
 
 
 class RunningJobs(Generic[_Job]):
-    """The running ones of the jobs that `take` returns, as many at once as the workers allow."""
+    """The jobs of `next_job` that run, as many at once as the workers allow."""
 
-    def __init__(self, workers: Workers, take: Callable[[], _Job | None]) -> None:
-        self._workers, self._take = workers, take
+    def __init__(self, workers: Workers, next_job: Callable[[], _Job | None]) -> None:
+        self._workers, self._next_job = workers, next_job
         self._running: dict[Future[JobResult], tuple[_Job, Running]] = {}
         # Jobs that were running when a worker died. They are repeated one by one, to find the one
         # that kills its worker.
         self._suspects = collections.deque[_Job]()
         self._repeated: _Job | None = None  # the last job that was repeated
 
-    def results(self, look: Callable[[float], None]) -> Iterator[tuple[_Job, JobResult]]:
-        """Yield each job with its result when it ends, until `take` returns None and no job is
-        running; `look` gets the weight of what running jobs have done, ten times a second.
+    def results(self, poll: Callable[[float], None]) -> Iterator[tuple[_Job, JobResult]]:
+        """Yield each job with its result when it ends, until `next_job` returns None and no job is
+        running; `poll` gets the weight of what running jobs have done, ten times a second.
         """
 
         def check() -> None:
             self._workers.check()
-            look(sum(job.weight * run.progress.fraction for job, run in self._running.values()))
+            poll(sum(job.weight * run.progress.fraction for job, run in self._running.values()))
 
-        for future in ended(self._start, check):
+        for future in as_they_end(self._start, check):
             if future not in self._running:  # its job has become a suspect meanwhile
                 continue
             job, _ = self._running[future]
@@ -51,7 +51,7 @@ class RunningJobs(Generic[_Job]):
         """Start jobs, up to the number that may run at once; return the running ones."""
         while len(self._running) < (1 if self._suspects else self._workers.at_once):
             is_repeated = bool(self._suspects)
-            job = self._suspects.popleft() if is_repeated else self._take()
+            job = self._suspects.popleft() if is_repeated else self._next_job()
             if job is None:
                 break
             try:

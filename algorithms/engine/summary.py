@@ -36,7 +36,7 @@ class RunSummary:
         """What the run did, as a sentence."""
         raise NotImplementedError
 
-    def told(self, output: Path) -> str:
+    def line(self, output: Path) -> str:
         """Return the text with the output, or with the input if nothing was written."""
         return f"{output}: {self.text}"
 
@@ -52,7 +52,7 @@ class TileSummary(RunSummary):
         counts = {int(value): count for value, count in self.class_counts.items()}
         object.__setattr__(self, "class_counts", counts)
 
-    def told(self, output: Path) -> str:
+    def line(self, output: Path) -> str:
         return f"{output.parent / self.text}"  # which begins with the name
 
 

@@ -150,7 +150,7 @@ class ManyFiles(Execution):
     def _run(
         self, plan: Plan, folder: Path, waiting: Path, workers: Workers, progress: Progress
     ) -> None:
-        kept = plan.files_kept() if self._sinks else []
+        kept = plan.files_for_sinks() if self._sinks else []
         unpacking = _unpacking(waiting, self._survey, workers, is_whole=True)
         blocks, tiles = plan.jobs(workers, folder, unpacking)
         end = 0.8 if self._sinks else 1.0
