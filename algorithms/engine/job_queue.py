@@ -6,14 +6,13 @@ import collections
 from dataclasses import replace
 from graphlib import TopologicalSorter
 from pathlib import Path
-from typing import Collection, Sequence, Union
+from typing import Collection, Iterator, Sequence, Union
 
 from ..core.progress import Progress
 from ..core.temporary import remove
 from ..las.lasfile import LasFile
 from .job_messages import JobMessages, report_costs
 from .jobs import BlockJob, JobResult, TileJob
-from .running_jobs import RunningJobs
 from .summary import JobCost, TileSummary
 from .workers import Workers
 
@@ -59,8 +58,9 @@ class JobQueue:
     def work(self) -> None:
         """Run all jobs, and stop the workers; raise an error if the workers are gone."""
         try:
-            running: RunningJobs[AnyJob] = RunningJobs(self._workers, self._next_job)
-            for job, outcome in running.results(self._report):
+            ended: Iterator[tuple[AnyJob, JobResult]]
+            ended = self._workers.results(self._next_job, self._report)
+            for job, outcome in ended:
                 self._end(job, outcome)
             self._messages.report(self._progress)
             report_costs(self.costs, self._progress)

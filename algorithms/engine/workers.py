@@ -1,28 +1,45 @@
-"""Workers that run the jobs of a survey: threads of this process, or other processes."""
+"""Workers that run the jobs of a survey: threads of this process, or other processes.
+
+Where a worker dies, its jobs are repeated one by one.
+"""
 
 from __future__ import annotations
 
+import collections
 import contextlib
 import os
 import signal
 import sys
 import threading
 import time
-from concurrent.futures import Future, ThreadPoolExecutor, wait
+from concurrent.futures import (
+    BrokenExecutor,
+    CancelledError,
+    Future,
+    ThreadPoolExecutor,
+    wait,
+)
+from functools import partial
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, Callable, Iterator, NamedTuple, TypeVar
 
+from ..core.errors import BareEarthError
 from ..core.imports import import_only_what_runs_need, own_this_process
 from ..core.temporary import remove_leftovers
 from ..core.threads import Counter, SharedThreads
 from ..core.words import Keywords, names_in_use, option, use_names
-from .blockwise import JobProgress
+from .blockwise import JobProgress, as_they_end
 from .jobs import Job, JobResult, Share, attempt
 from .manifest import folders_of
 from .memory import Resources, give_back, share_one_heap
 
 # Seconds that jobs have to stop by themselves when the user cancels.
 _PATIENCE = 0.7
+_DIED = (
+    "The process that worked on it ended unexpectedly, perhaps because memory was short. Allow"
+    " fewer threads, or less memory."
+)
+_Job = TypeVar("_Job")
 
 
 def scheduler_gone() -> str:
@@ -47,6 +64,11 @@ class Workers:
     def __init__(self, resources: Resources = Resources()) -> None:
         self.resources = resources
         self.at_once, self.share = 1, Resources.of(1, 0)  # of each job
+        self._running: dict[Future[JobResult], tuple[Any, Running]] = {}
+        # Jobs that were running when a worker died. They are repeated one by one, to find the one
+        # that kills its worker.
+        self._suspects = collections.deque[Any]()
+        self._repeated: Job | None = None  # the last job that was repeated
 
     def start(self, folder: Path, least: int, blocks: int, tiles: int) -> None:
         """Prepare for jobs on numbers of blocks and tiles, with outputs in a folder; the largest
@@ -58,6 +80,73 @@ class Workers:
         # If there are few blocks, each can use the threads that would be idle.
         together = max(1, min(self.at_once, blocks))
         self.share = Resources.of(max(1, threads // together), memory // self.at_once)
+
+    def results(
+        self, next_job: Callable[[], _Job | None], poll: Callable[[float], None]
+    ) -> Iterator[tuple[_Job, JobResult]]:
+        """Yield each job with its result when it ends, until `next_job` returns None and no job is
+        running; `poll` gets the weight of what running jobs have done, ten times a second.
+        """
+
+        self._running.clear()
+        self._suspects.clear()
+        self._repeated = None
+
+        def check() -> None:
+            self.check()
+            poll(sum(job.weight * run.progress.fraction for job, run in self._running.values()))
+
+        for future in as_they_end(partial(self._fill, next_job), check):
+            if future not in self._running:  # its job has become a suspect meanwhile
+                continue
+            job, _ = self._running[future]
+            outcome = self._outcome(future)
+            if outcome is not None:
+                yield job, outcome
+
+    def _fill(self, next_job: Callable[[], Any]) -> list[Future[JobResult]]:
+        """Start jobs, up to the number that may run at once; return the running ones."""
+        while len(self._running) < (1 if self._suspects else self.at_once):
+            is_repeated = bool(self._suspects)
+            job = self._suspects.popleft() if is_repeated else next_job()
+            if job is None:
+                break
+            try:
+                run = self.submit(job)
+            except BrokenExecutor:  # a worker died between two jobs
+                self._suspects.appendleft(job)
+                self._suspect_all()
+                continue
+            self._running[run.future] = job, run
+            self._repeated = job if is_repeated else self._repeated
+        return list(self._running)
+
+    def _suspect_all(self) -> None:
+        """Repeat all running jobs one by one, since one of them may have killed its worker."""
+        self._suspects.extend(job for job, _ in self._running.values())
+        self._running.clear()
+        self.restart()
+
+    def _outcome(self, future: Future[JobResult]) -> JobResult | None:
+        """Return the result of a job that ended; None if it is to be repeated."""
+        job, _ = self._running[future]
+        try:
+            outcome = future.result()
+        except BrokenExecutor:
+            # The first time something else may have killed the worker, even if the job ran alone.
+            is_guilty = job is self._repeated and len(self._running) == 1
+            self._suspect_all()
+            if not is_guilty:
+                return None
+            self._suspects.pop()
+            return JobResult(None, failure=_DIED)
+        except CancelledError as error:
+            raise BareEarthError(scheduler_gone()) from error
+        except Exception as error:  # the cluster gave up the job
+            failure = f"It could not be done: {error or type(error).__name__}."
+            outcome = JobResult(None, failure=failure)
+        del self._running[future]
+        return outcome
 
     def submit(self, job: Job) -> Running:
         """Start a job."""
