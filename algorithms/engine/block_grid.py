@@ -6,7 +6,6 @@ file with all their points, without seams.
 
 from __future__ import annotations
 
-import itertools
 import math
 from collections import defaultdict
 from dataclasses import dataclass
@@ -64,9 +63,12 @@ class BlockGrid:
         """Return the box that holds all points that the blocks need, in units of the CRS."""
         boxes = np.array([self.blocks.window(self.blocks.block(*place)) for place in places])
         low, high = boxes[:, :2].min(axis=0) - _MARGIN, boxes[:, 2:].max(axis=0) + _MARGIN
-        unit, origin = self.frame.horizontal_unit, np.array(self.frame.origin)
-        west, south = (low / unit + origin).tolist()
-        east, north = (high / unit + origin).tolist()
+        return self.in_crs((*low, *high))
+
+    def in_crs(self, metres: Box) -> Box:
+        """Return a box in metres of the frame in units of the CRS."""
+        box = np.array(metres) / self.frame.horizontal_unit + np.tile(self.frame.origin, 2)
+        west, south, east, north = box.tolist()
         return west, south, east, north
 
     def places_in(self, box: Box) -> tuple[range, range]:
@@ -75,13 +77,18 @@ class BlockGrid:
         west, south, east, north = self.blocks.number(metres).astype(int).tolist()
         return range(west, east + 1), range(south, north + 1)
 
+    def touching(self, box: Box) -> list[BlockIndex]:
+        """Return the blocks that a box in units of the CRS touches, from south to north."""
+        columns, rows = self.places_in(box)
+        return [BlockIndex(column, row) for row in rows for column in columns]
+
     def holding(self, block: PlaneBlock) -> BlockIndex:
         """Return the index of the block that a block is a part of, or equal to."""
         share = round(self.blocks.side / block.side)
         return BlockIndex(block.column // share, block.row // share)
 
     def among(self, places: Iterable[BlockIndex], box: Box) -> list[BlockIndex]:
-        """Return those of some blocks that a box in units of the CRS touches."""
+        """Return the blocks, among some, that a box in units of the CRS touches."""
         columns, rows = self.places_in(box)
         return [place for place in places if place.column in columns and place.row in rows]
 
@@ -115,7 +122,7 @@ def places_of(grid: BlockGrid, tile: LasFile) -> list[BlockIndex]:
     """
     columns, rows = grid.places_in(tile.outer_box)
     if len(columns) * len(rows) <= _MOST_PLACES:
-        return [BlockIndex(column, row) for row, column in itertools.product(rows, columns)]
+        return grid.touching(tile.outer_box)
     row, column = row_and_column(np.unique(grid.codes(read_cloud(tile))))
     return [BlockIndex(*index) for index in zip(column.tolist(), row.tolist())]
 

@@ -189,8 +189,8 @@ class Visit(NamedTuple):
     block: PlaneBlock
     blocks: Blocks
     store: Store  # with the points that the step needs
-    is_only: bool  # whether all of these points lie in the block
-    found: dict[Hashable, Any]  # what earlier steps have found out about the block
+    is_only: bool  # whether the block holds all points of the store
+    findings: dict[Hashable, Any]  # what earlier steps have found out about the block
 
     @property
     def corner(self) -> Corner:

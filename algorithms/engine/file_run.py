@@ -43,7 +43,7 @@ class OneFile(Execution):
             step.in_crs(place_of(self._las))
 
     def copy_empty(self, layouts: Sequence[LasFile], target: Path) -> RunSummary:
-        """Write the file unchanged, and no other output, since these are made of points."""
+        """Write the file unchanged, and no other output, since other outputs are made of points."""
         (layout,) = layouts
         write_without_points(layout, target)
         names = ", ".join(path.name for path in self._other_outputs)

@@ -42,13 +42,13 @@ class JobQueue:
             {job: [makers[file] for file in job.needs if file in makers] for job in jobs}
         )
         self._jobs.prepare()
-        # Jobs that can start: without and with results of others; the latter go first.
+        # Jobs that can start; jobs that use results of others go first.
         self._first = collections.deque(self._jobs.get_ready())
         self._next = collections.deque[AnyJob]()
         # The job of `jobs` that a job is a part or a copy of, and how many of its parts are left.
         self._whole: dict[AnyJob, AnyJob] = {}
         self._left = collections.Counter(jobs)
-        # Results that were made without those of failed blocks near them.
+        # Results that lack the results of failed blocks nearby.
         self._partial: set[Path] = set()
         # How many jobs use a result.
         self._uses = collections.Counter([*kept, *(file for job in jobs for file in job.needs)])

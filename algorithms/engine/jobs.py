@@ -90,8 +90,8 @@ class Job:
 class BlockJob(Job):
     """A job that works on the points of some blocks."""
 
-    output: BlockFiles  # for the results of these blocks
-    sources: tuple[Path, ...]  # files that may have points for these blocks
+    output: BlockFiles  # for the results
+    sources: tuple[Path, ...]  # files that may have points for the blocks
     count: float  # of points in the blocks, estimated
     # Sources that already have the results of the earlier steps.
     finished: frozenset[Path] = frozenset()

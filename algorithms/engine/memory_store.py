@@ -22,7 +22,7 @@ _READ = 1 << 15
 
 
 class MemoryStore(Store):
-    """A store whose points are those of clouds in memory; `kind` is the type of the values."""
+    """A store that refers to the points of clouds in memory; `kind` is the type of the values."""
 
     def __init__(self, frame: Frame, blocks: Blocks, kind: type = np.uint8) -> None:
         super().__init__(frame, kind)

@@ -101,7 +101,7 @@ class Plan:
         has_sinks: bool = False,
     ) -> None:
         self.steps, self.folder, self._targets = steps, folder, targets
-        # Only points in the area of the first step get values, and those round it help.
+        # Only points in the area of the first step get values; points round it are context.
         self._area = steps[0].area
         # Whether sinks need results that the outputs do not have.
         self._needs_context = has_sinks and self._area is not None
@@ -271,7 +271,7 @@ class Plan:
 
     def results(self, outputs: Survey, empty: Iterable[LasFile]) -> Results:
         """Return where to read the points that rasters are made from, given the files that were
-        written, and those without a point to write.
+        written, and the files without a point to write.
         """
         inputs = {self._targets[tile.path].name: tile for tile in self.near_survey.tiles}
         needed, read_from = set(), {}

@@ -37,7 +37,7 @@ class Run:
         vpc: Path | None = None,
         outputs: Outputs | None = None,
     ) -> Any:
-        """Let the steps work, and write the points into a file, those of a survey into a folder;
+        """Let the steps work, write the points into a file or, for a survey, into a folder, and
         return the summary.
         """
         # `target`, and the virtual point cloud of a survey, are None if no step computes a value

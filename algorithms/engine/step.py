@@ -50,7 +50,7 @@ from .summary import TileSummary
 # Step.marks               visits.Work      each part of the points, as earlier steps left it
 # Step.report_counts       file_run         what `marks` counted: reports, or refuses the file
 # Step.in_block            visits           a `Visit` of a block: values, or arrays
-# PointStep.report_blocks  visits           the notes of all blocks: reports, or refuses these
+# PointStep.report_blocks  visits           the notes of all blocks: reports, or refuses the points
 # Sink.finish              file_run, sinks  the arrays of all blocks: writes `outputs`
 # PointStep.result         file_points      a file: its `PointResult`
 #   PointResult.add        file_points      each part again, with its values: as it is written
@@ -59,7 +59,7 @@ from .summary import TileSummary
 #   PointResult.report     file_points      reports on the file, or refuses it
 #   PointResult.edits      file_points      what changes in the file apart from classes
 #   PointResult.summary    file_points      the numbers of points by class: the summary
-# PointStep.report_survey * survey_run      the summaries of all files: reports, or refuses these
+# PointStep.report_survey * survey_run      the summaries of all files: reports, or refuses all
 
 _Step = TypeVar("_Step", bound="Step")
 
@@ -115,7 +115,7 @@ class Step:
         return CLASSES in self.changes
 
     def in_crs(self: _Step, place: Place, progress: Progress = SILENT) -> _Step:
-        """Return the step for points at a place, or refuse these."""
+        """Return the step for points at a place, or refuse the points."""
         return self
 
     def marks(self, part: PointCloud, counts: Any) -> Marks:
@@ -169,7 +169,9 @@ class PointStep(Step):
         """Refuse, before any work, a file that cannot hold the result."""
 
     def report_blocks(self, notes: Sequence[Any], has_known: bool, progress: Progress) -> None:
-        """Report the notes of all blocks, and whether any point is known ground; or refuse them."""
+        """Report the notes of all blocks, given whether any point is known ground, or refuse the
+        points.
+        """
 
     def applied(self, part: PointCloud, values: np.ndarray) -> PointCloud:
         """Return points with their values, as later steps see them and as they are written."""
@@ -186,8 +188,8 @@ class PointStep(Step):
     def report_survey(
         self, done: Sequence[Any], empty: Sequence[LasFile], progress: Progress
     ) -> None:
-        """Report on all files together, given the summaries of those that were written, and those
-        without a point to write; or refuse all of them.
+        """Report on all files together, given the summaries of the written files, and the files
+        without a point to write; or refuse all.
         """
         if empty:
             progress.info(
@@ -275,8 +277,8 @@ def _plain(value: object) -> object:
 
 
 def with_classes(part: PointCloud, classes: np.ndarray, begins: bool = False) -> PointCloud:
-    """Return points with other classes; these are remembered in the file if it has remembered
-    classes already, or if `begins`.
+    """Return points with other classes, which the file remembers if it has remembered classes
+    already, or if `begins`.
     """
     remembered = None
     if begins or part.remembered is not None:

@@ -83,7 +83,7 @@ class BlockFiles:
         return replace(self, files={place: self.files[place] for place in places})
 
     def write(self, place: BlockIndex, of_files: Mapping[Path, np.ndarray], failure: str) -> None:
-        """Write the values of a block: for each input, those of its points in file order."""
+        """Write the values of a block: for each input, the values of its points in file order."""
         content: dict[str, Any] = {_key(path): values for path, values in of_files.items()}
         if failure:
             content[_FAILURE] = np.frombuffer(failure.encode(), dtype=np.uint8)
@@ -112,8 +112,8 @@ def arrays_in(file: Path) -> list[dict[str, Any]]:
 
 
 class BlockValues(PointValues):
-    """The values of a step for the points of a file, from files of blocks; if these need not be all
-    blocks (`are_all`), points in other blocks have the value 0.
+    """The values of a step for the points of a file, from files of blocks; points in other blocks
+    are refused if the files must be of all blocks (`are_all`), and otherwise have the value 0.
     """
 
     def __init__(self, blocks: BlockFiles, las: LasFile, are_all: bool = True) -> None:

@@ -1,4 +1,4 @@
-"""Lets steps work in blocks, in as many at the same time as threads and memory allow.
+"""Runs steps block by block, in parallel as far as threads and memory allow.
 
 Steps with equal blocks work on a block one after another, so that a step can use what an earlier
 one has found out about the points of the block.
@@ -76,8 +76,8 @@ def values_of(
     places: Sequence[BlockIndex] | None = None,
     store: Store | None = None,
 ) -> Work:
-    """Let the step of a grid work on points, in all of its blocks or in those at some places, and
-    return what it found; `Work.parts` have the numbers of the places of points, from 1 on.
+    """Let the step of a grid work on points, in all of its blocks or only at some places; return
+    what it found, with the number of the place of each point in `Work.parts`, from 1 on.
     """
     step, has_values = grid.step, isinstance(grid.step, PointStep)
     work = Work(step, store or MemoryStore(grid.frame, grid.blocks, step.kind))
@@ -190,8 +190,8 @@ def _in_block(
 ) -> dict[int, object]:
     """Let steps work on a block; visits and results are by the number of the step."""
     shares = progress.shares(*(works[number].step.weight for number in visits))
-    found: dict[Hashable, Any] = {}
+    findings: dict[Hashable, Any] = {}
     return {
-        number: works[number].step.in_block(visit._replace(found=found), share)
+        number: works[number].step.in_block(visit._replace(findings=findings), share)
         for (number, visit), share in zip(visits.items(), shares)
     }

@@ -59,7 +59,7 @@ class _Source(NamedTuple):
     outer: Box  # the box with a margin for rounding errors
 
 
-class _Work(NamedTuple):
+class _BlockReading(NamedTuple):
     """How the points of a block are read and classified."""
 
     grid: BlockGrid  # of the step that classifies
@@ -72,7 +72,7 @@ class _Work(NamedTuple):
     sources: tuple[str, ...]  # with signatures, which are never shown
 
     def __repr__(self) -> str:
-        return "_Work(...)"
+        return "_BlockReading(...)"
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -99,7 +99,7 @@ class Block:
     window: Box
     sources: tuple[str, ...]
     crs: str | None
-    work: _Work
+    work: _BlockReading
 
     def __repr__(self) -> str:
         west, south, east, north = self.extent
@@ -187,23 +187,23 @@ def blocks_of(values: SimpleNamespace, sets: Sequence[ParameterSet]) -> list[Blo
     inside: dict[BlockIndex, list[_Source]] = {}
     for name, _, box, tile in clouds:
         source = _Source(name, box, tile.outer_box if tile else box)
-        for place in places_of(grid, tile) if tile else indices(grid, box):
+        for place in places_of(grid, tile) if tile else grid.touching(box):
             inside.setdefault(place, []).append(source)
     wanted = set(inside)
     if values.extent is not None:
-        wanted &= {*indices(grid, Area(tuple(values.extent)).located(here, progress).bounds)}
+        wanted &= {*grid.touching(Area(tuple(values.extent)).located(here, progress).bounds)}
         if not wanted:
             raise BareEarthError(
                 "No block lies in the extent. Give the extent in the CRS of the points."
             )
     blocks = []
     for place in sorted(wanted, key=lambda place: (place.row, place.column)):
-        extent = in_crs(grid, grid.blocks.block(*place).box)
+        extent = grid.in_crs(grid.blocks.block(*place).box)
         window = extent if values.classified else grid.window([place])
-        near = {source for around in indices(grid, window) for source in inside.get(around, ())}
-        names = sorted(source.name for source in near if touch(source.outer, window))
+        near = {source for around in grid.touching(window) for source in inside.get(around, ())}
+        names = sorted(source.name for source in near if Area(window).may_touch(source.outer))
         whole = box_round(np.array([source.box for source in inside[place]]))
-        work = _Work(
+        work = _BlockReading(
             grid, place, values.classified, shared_by(extent, whole), crs, cache,
             most_bytes(values), tuple(names),
         )  # fmt: skip
@@ -238,25 +238,6 @@ def _check_same(name: str, crs: Crs, common: Crs) -> None:
         )
 
 
-def in_crs(grid: BlockGrid, metres: Box) -> Box:
-    """Return a box in metres of the frame of a grid in units of the CRS."""
-    west, south, east, north = np.array(metres) / grid.frame.horizontal_unit
-    x, y = grid.frame.origin
-    return float(west + x), float(south + y), float(east + x), float(north + y)
-
-
-def indices(grid: BlockGrid, box: Box) -> list[BlockIndex]:
-    """Return where the blocks lie that touch a box in units of the CRS, from south to north."""
-    columns, rows = grid.places_in(box)
-    return [BlockIndex(column, row) for row in rows for column in columns]
-
-
-def touch(first: Box, second: Box) -> bool:
-    """Return whether two boxes touch."""
-    west, south, east, north = second
-    return first[0] <= east and first[2] >= west and first[1] <= north and first[3] >= south
-
-
 def shared_by(first: Box, second: Box) -> Box:
     """Return the intersection of two boxes."""
     west, south = max(first[0], second[0]), max(first[1], second[1])
@@ -266,7 +247,7 @@ def shared_by(first: Box, second: Box) -> Box:
 def points_of(
     block: Block, progress: Progress, numbers: bool = False
 ) -> list[tuple[int, PointCloud]]:
-    """Return the points in a block with their classes, those of each file as one cloud, with the
+    """Return the points in a block with their classes, one cloud for each file, with the
     place of the file among the sources of the block.
     """
     grid, places = block.work.grid, [block.work.place]

@@ -26,7 +26,7 @@ from ..tools.rasters.block import BlockRasters
 from ..tools.rasters.output import no_point_in, write_rasters
 from ..tools.rasters.rows import RASTERS, How
 from ..tools.rasters.step import MakeRasters
-from .blocks import ONE_THREAD, Block, in_crs, indices, points_of, shared_by
+from .blocks import ONE_THREAD, Block, points_of, shared_by
 from .rasters import Collected, Raster
 
 
@@ -52,14 +52,14 @@ def lazy_rasters(blocks: Sequence[Block], step: MakeRasters) -> dict[str, Raster
     points = {block.work.place: delayed(points_of)(once(block), SILENT) for block in blocks}
     layers: dict[BlockIndex, Any] = {}
     rows: dict[int, list[Any]] = {}
-    for index in indices(grid, in_crs(grid, _box_of(window, step.cell))):
+    for index in grid.touching(grid.in_crs(_box_of(window, step.cell))):
         cells = CellWindow.with_centres_in(grid.blocks.block(*index).box, step.cell).within(window)
         if cells.is_empty:
             continue
         near: list[Any] = []
-        for around in indices(grid, in_crs(grid, _box_of(cells, step.cell, reach + AROUND_AREA))):
+        for around in grid.touching(grid.in_crs(_box_of(cells, step.cell, reach + AROUND_AREA))):
             if around not in layers:
-                places = indices(work.grid, grid.window([around]))
+                places = work.grid.touching(grid.window([around]))
                 needed = [points[place] for place in places if place in points]
                 layers[around] = delayed(_layers_of)(shared, around, needed) if needed else None
             near += [layers[around]] * (layers[around] is not None)
@@ -135,7 +135,7 @@ def _cells_of(
     }
     boxes = np.array([block.box for block in blocks]).reshape(-1, 4)
     boxes = boxes[~np.isnan(boxes).any(axis=1)]
-    box, polygons = in_crs(grid, _box_of(cells, step.cell, reach)), ()
+    box, polygons = grid.in_crs(_box_of(cells, step.cell, reach)), ()
     if step.area is not None:
         box, polygons = shared_by(box, step.area.bounds), step.area.polygons
     if not len(boxes) or box[0] >= box[2] or box[1] >= box[3]:

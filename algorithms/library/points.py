@@ -141,7 +141,7 @@ def _axis(name: str, array: np.ndarray) -> _CoordinateAxis:
     rounded to the finest that holds them.
     """
     # Numbers of a file become the integers of the file. Files with equal scales give equal numbers
-    # for equal places, and so do these.
+    # for equal places, and so do arrays.
     if not len(array):
         return _CoordinateAxis(np.zeros(0, dtype=np.int32), 1.0, 0.0)
     low, high = (float(extreme(_of_parts(array, extreme))) for extreme in (np.min, np.max))

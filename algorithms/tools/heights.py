@@ -154,7 +154,7 @@ class MeasureHeights(PointStep):
         if not len(positions) or not ground.points.count:
             return positions, np.full(len(positions), np.nan)
         surface = GroundSurface(ground.points, progress.part(0.3, 0.45))
-        visit.found[self.ground, self.roads] = surface.thinned
+        visit.findings[self.ground, self.roads] = surface.thinned
         points = Points(*map(np.concatenate, zip(*(points for _, points in found))))
         return positions, surface.heights_above(points, progress.part(0.45, 1.0))
 

@@ -9,7 +9,7 @@ from bare_earth.algorithms.core.points import Points
 from bare_earth.algorithms.grids.cell_window import CellWindow
 from bare_earth.algorithms.tin.surface import Surface
 from bare_earth.algorithms.tin.triangulation import Tin
-from bare_earth.algorithms.tools.rasters.block import RasterStep
+from bare_earth.algorithms.tools.rasters.block import LayerMaker
 from bare_earth.algorithms.tools.rasters.block_view import BlockView
 
 
@@ -49,7 +49,7 @@ def test_surface_model_looks_up_only_cells_near_points(
 ) -> None:
     nothing, everything = np.zeros(6000, dtype=bool), np.ones(6000, dtype=bool)
     view = BlockView(corridor, nothing, everything, everything, (0.0, 0.0))
-    found = RasterStep(1.0, ("surface",)).of(view, (-20.0, -20.0, 600.0, 600.0))
+    found = LayerMaker(1.0, ("surface",)).of(view, (-20.0, -20.0, 600.0, 600.0))
     heights = found.layers["surface"]
     x, y = np.meshgrid(*CellWindow(*found.window).centres(1.0))
     inside = np.isfinite(heights)

@@ -63,7 +63,7 @@ class BlockRasters(NamedTuple):
 
 
 @dataclass(frozen=True)
-class RasterStep(LayerSizes):
+class LayerMaker(LayerSizes):
     """Makes the layers of a block."""
 
     def of(self, view: BlockView, box: Box, progress: Progress = SILENT) -> BlockRasters:

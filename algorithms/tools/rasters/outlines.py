@@ -20,7 +20,7 @@ from ...grids.cell_window import CellWindow
 from ...grids.cells import are_inside
 from ...grids.morphology import closing, within_square
 from ...grids.outline import MOST_CELLS, Discs, Outline, Span, spans, with_gaps_inside
-from .block import ANY, CONTENTS, QUARTERS, BlockRasters, RasterStep
+from .block import ANY, CONTENTS, QUARTERS, BlockRasters, LayerMaker
 from .level_water import NO_WATER_CELLS, WaterCells
 from .mosaic import Mosaic, joined
 
@@ -174,7 +174,7 @@ def _radius(cells: float) -> float:
 class Outlines:
     """The outlines of the rasters of a survey, made when they are needed."""
 
-    def __init__(self, contents: CellContents, step: RasterStep) -> None:
+    def __init__(self, contents: CellContents, step: LayerMaker) -> None:
         window, cell = contents.window, step.cell
         self._contents, self._shape = contents, window.shape
         self._longest, self.water = step.longest_edge / cell, contents.water
@@ -254,7 +254,7 @@ class Outlines:
 def mosaics_of(
     blocks: Sequence[BlockRasters],
     window: CellWindow,
-    step: RasterStep,
+    step: LayerMaker,
     outlines: Outlines,
     progress: Progress = SILENT,
 ) -> dict[str, Mosaic]:

@@ -25,7 +25,7 @@ from ...rasters.geotiff import NO_GROUND, RasterGrid
 from ...rasters.virtual import folder_of, virtual_of, write_virtual
 from ...rasters.writing import Band, RasterCells, raster_file, write_geotiff
 from ...survey.area import Area
-from .block import BlockRasters, RasterStep
+from .block import BlockRasters, LayerMaker
 from .fixed_terrain import FixedTerrain
 from .level_water import WaterCells
 from .mosaic import Mosaic, made_parts
@@ -61,9 +61,9 @@ class RasterJob:
         return self.cells.metres
 
     @property
-    def of_block(self) -> RasterStep:
+    def of_block(self) -> LayerMaker:
         """Makes the rasters of a single block."""
-        return RasterStep(self.cell, self.files.layers, self.surface.max_edge)
+        return LayerMaker(self.cell, self.files.layers, self.surface.max_edge)
 
 
 @dataclass(frozen=True)

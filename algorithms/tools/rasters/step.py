@@ -212,7 +212,7 @@ class MakeRasters(RasterJob, Sink):
         block, corner = visit.block, visit.corner
         # The ground that other steps see is the same, unless constraints change it.
         is_same = self.needs_ground and not self.constraints.any
-        thinned = visit.found.get((self.ground, self.roads)) if is_same else None
+        thinned = visit.findings.get((self.ground, self.roads)) if is_same else None
         lacks_ground = thinned is not None and not self.needs_all
         contents = visit.contents(progress.part(0.0, 0.1), OTHERS if lacks_ground else None)
         points, roads, ground = contents.points, contents.flags[ROADS_FLAG], contents.known
