@@ -35,7 +35,7 @@ class Counter(Protocol):
         """Return the lock."""
 
 
-class _Counter:
+class _LocalCounter:
     """A `Counter` for the threads of this process."""
 
     def __init__(self, value: int) -> None:
@@ -51,7 +51,7 @@ class SharedThreads:
     """
 
     def __init__(self, count: int | Counter) -> None:
-        self._free = _Counter(max(1, count)) if isinstance(count, int) else count
+        self._free = _LocalCounter(max(1, count)) if isinstance(count, int) else count
 
     @property
     def free(self) -> int:

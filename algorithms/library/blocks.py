@@ -51,7 +51,7 @@ _KINDS: dict[str, type] = {
 }  # fmt: skip
 
 
-class _Source(NamedTuple):
+class _CloudSource(NamedTuple):
     """A point cloud."""
 
     name: str  # path or address
@@ -184,9 +184,9 @@ def blocks_of(values: SimpleNamespace, sets: Sequence[ParameterSet]) -> list[Blo
     here = Place("the files", crs, box)
     (step,) = steps_in_crs([step], here, progress)
     grid = BlockGrid(survey_frame(crs), step, stated)
-    inside: dict[BlockIndex, list[_Source]] = {}
+    inside: dict[BlockIndex, list[_CloudSource]] = {}
     for name, _, box, tile in clouds:
-        source = _Source(name, box, tile.outer_box if tile else box)
+        source = _CloudSource(name, box, tile.outer_box if tile else box)
         for place in places_of(grid, tile) if tile else grid.touching(box):
             inside.setdefault(place, []).append(source)
     wanted = set(inside)

@@ -151,10 +151,10 @@ class FindKeyPoints(PointStep):
 
     def result(self, path: Path, allocate: Allocate) -> PointResult:
         """Return an object that counts the key points of a file, and collects their flags."""
-        return PointResult(self) if self.gives_classes else _Flags(self, allocate)
+        return PointResult(self) if self.gives_classes else _KeyPointFlags(self, allocate)
 
 
-class _Flags(PointResult):
+class _KeyPointFlags(PointResult):
     """The key points of a file that keep their class, as a flag of each point."""
 
     def __init__(self, step: FindKeyPoints, allocate: Allocate) -> None:

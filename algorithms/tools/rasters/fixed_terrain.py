@@ -134,7 +134,7 @@ class GivenTerrain(NamedTuple):
             for polygon, border in zip(polygons, borders)
             if np.isnan(border[:, 2]).any()
         )
-        surface = _Surface(Area(None, open_ones) if open_ones else None)
+        surface = _WaterSurface(Area(None, open_ones) if open_ones else None)
         near, is_ground = _ground_near([*places, *borders], clouds, ground, frame, surface)
         if polygons:
             # Points in the water are not on its banks.
@@ -168,7 +168,7 @@ def _with_level(
     border: np.ndarray,
     rivers: Sequence[np.ndarray],
     shore: NearestHeights,
-    surface: _Surface,
+    surface: _WaterSurface,
 ) -> LevelWater:
     """Return a polygon with its level: that of its corners, of the points of class 9 in it, or of
     the ground along its border.
@@ -226,7 +226,7 @@ def _along_breaklines(given: GivenTerrain, step: float, progress: Progress) -> I
         )
 
 
-class _Surface:
+class _WaterSurface:
     """The points of class 9 in water, whose level is not given, as means of squares."""
 
     def __init__(self, water: Area | None) -> None:
@@ -275,7 +275,7 @@ def _ground_near(
     clouds: Iterable[PointCloud],
     ground: GroundClasses,
     frame: Frame,
-    surface: _Surface,
+    surface: _WaterSurface,
 ) -> tuple[np.ndarray, np.ndarray]:
     """Return ground and ignored ground round lines, shape (n, 3), and which is ground; add the
     points of class 9 to the surface of water.

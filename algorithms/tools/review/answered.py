@@ -121,7 +121,7 @@ def changes_of(
     rasters: Rasters, before: Windows, raster: HeightBand, corrections: Corrections
 ) -> list[Change]:
     """Return what changed in all cells, and in each place whose answer changes classes."""
-    rises = _Rises(rasters.terrain, before)
+    rises = _RiseWindows(rasters.terrain, before)
     found = [_change("all cells", "", (rises[window] for window in parts_of(before)), rasters.cell)]
     polygons, codes, numbers = corrections.effects
     for polygon, code, number in zip(polygons, codes, numbers):
@@ -132,7 +132,7 @@ def changes_of(
     return found
 
 
-class _Rises:
+class _RiseWindows:
     """By how much the terrain rose, 0 without a value; of no terrain, what was before is lost."""
 
     def __init__(self, terrain: Windows | None, before: Windows) -> None:
@@ -144,7 +144,7 @@ class _Rises:
         return np.nan_to_num(terrain - before)
 
 
-def _inside(rises: _Rises, polygon: Polygon, raster: HeightBand) -> np.ndarray:
+def _inside(rises: _RiseWindows, polygon: Polygon, raster: HeightBand) -> np.ndarray:
     """Return the values of the cells in a polygon."""
     x0, a, _, y0, _, d = raster.geotransform
     corners = np.vstack(polygon)[:, :2]

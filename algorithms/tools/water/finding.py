@@ -147,7 +147,7 @@ class _Region(NamedTuple):
         return self.water & ~self.below & ~self.outside
 
 
-class _Marks(NamedTuple):
+class _LevelEvidence(NamedTuple):
     """The evidence for the level of a region."""
 
     shore: Shore
@@ -250,7 +250,7 @@ class _Search:
             bodies += self._parts_of(part_of, is_shore=False)
         return bodies
 
-    def _marks_of(self, region: _Region, is_shore: bool) -> _Marks | None:
+    def _marks_of(self, region: _Region, is_shore: bool) -> _LevelEvidence | None:
         """Return the evidence for the level of a region: its shore, or its points of class 9 or on
         a level surface; None for a shore that is not that of water.
         """
@@ -259,7 +259,7 @@ class _Search:
         share = float(is_class[region.open].mean()) if region.open.any() else 0.0
         if not is_shore:
             cells = region.water & (is_class | region.level)
-            return _Marks(surface_of(cells, grid.lowest[window], grid.cell), share, 1.0)
+            return _LevelEvidence(surface_of(cells, grid.lowest[window], grid.cell), share, 1.0)
         hidden = beside_decks(grid, window) | region.beside
         shore = shore_of(region.water, grid.ground[window], grid.cell, hidden)
         if shore is None or shore.known < _LEAST_KNOWN:
@@ -267,7 +267,7 @@ class _Search:
         known = shore.rises[~np.isnan(shore.rises)]
         rising = float((known > _RISE).mean()) if len(known) else 0.0
         least = _LEAST_RISING_OUTSIDE if region.outside.any() else _LEAST_RISING
-        return _Marks(shore, share, rising) if rising >= least else None
+        return _LevelEvidence(shore, share, rising) if rising >= least else None
 
     def _parts_of(self, region: _Region, is_shore: bool) -> list[WaterBody]:
         """Return a region as water, or its parts, into which steps of the level divide it."""
@@ -304,7 +304,7 @@ class _Search:
             return []
         return [self._body_of(region, marks, levels)]
 
-    def _body_of(self, region: _Region, marks: _Marks, levels: Levels) -> WaterBody:
+    def _body_of(self, region: _Region, marks: _LevelEvidence, levels: Levels) -> WaterBody:
         """Return a region as water with its figures."""
         grid, cell = self.grid, self.grid.cell
         # The last returns, relative to those of as much land.

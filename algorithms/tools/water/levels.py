@@ -289,7 +289,7 @@ def spread_of(values: np.ndarray) -> float:
     return float(high - low) / _DEVIATIONS
 
 
-class _Step(NamedTuple):
+class _LevelDrop(NamedTuple):
     """A step of the level, from the first to the last of some reaches."""
 
     sharpness: float  # the drop, less for each reach
@@ -317,7 +317,7 @@ def parts_of_step(
     return [(part, dilation(water & ~part, _HIDDEN)) for part in parts]
 
 
-def _steps(levels: np.ndarray, chain: np.ndarray) -> list[_Step]:
+def _steps(levels: np.ndarray, chain: np.ndarray) -> list[_LevelDrop]:
     """Return all steps of a chain of reaches."""
     heights, count, steps = levels[chain], len(chain), []
     for first in range(_LEVEL_REACHES, count - _LEVEL_REACHES):
@@ -327,7 +327,7 @@ def _steps(levels: np.ndarray, chain: np.ndarray) -> list[_Step]:
             if drop >= max(STEP, _STEEPER * usual):
                 before, after = chain[max(first - 2, 0) : first + 1], chain[last : last + 3]
                 middle = float(heights[first] + heights[last]) / 2.0
-                steps.append(_Step(drop - _BLURRED * length, before, after, middle))
+                steps.append(_LevelDrop(drop - _BLURRED * length, before, after, middle))
     return steps
 
 
@@ -337,7 +337,7 @@ def _slope(heights: np.ndarray) -> float:
     return float((changes / np.arange(1, len(changes) + 1)).max())
 
 
-def _gap(water: np.ndarray, reaches: Reaches, step: _Step, ground: np.ndarray) -> np.ndarray:
+def _gap(water: np.ndarray, reaches: Reaches, step: _LevelDrop, ground: np.ndarray) -> np.ndarray:
     """Return the cells across a region at a step."""
     # No land beside the upper water is lower than the middle of the step. So it begins where the
     # first such land is, on either bank.
