@@ -23,7 +23,8 @@ def raster_of(given: object, with_cells: bool = True) -> str | MemoryRaster:
     if isinstance(given, (str, PathLike)):
         return str(fspath(given))
     if isinstance(given, Raster):
-        return _of_ours(given, with_cells)
+        place, wkt = geotransform_of(given.transform), stated_wkt(given.crs)
+        return _made(given, with_cells, given.name, place, wkt, {given.nodata}, about=given.shows)
     if hasattr(given, "dims") and hasattr(given, "coords") and hasattr(given, "dtype"):
         return _of_xarray(given, with_cells)
     raise BareEarthError(
@@ -38,11 +39,6 @@ def heights_of(given: object) -> str | MemoryRaster:
     if isinstance(raster, MemoryRaster) and raster.content.values.dtype == np.uint8:
         raise BareEarthError('Give a raster of heights, such as terrain(points)["dtm"].')
     return raster
-
-
-def _of_ours(given: Raster, with_cells: bool) -> MemoryRaster:
-    place, wkt = geotransform_of(given.transform), stated_wkt(given.crs)
-    return _made(given, with_cells, given.name, place, wkt, {given.nodata}, about=given.shows)
 
 
 def _of_xarray(given: Any, with_cells: bool) -> MemoryRaster:
