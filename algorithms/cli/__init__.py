@@ -10,8 +10,8 @@ from typing import Sequence
 
 from ..core.errors import BareEarthError, Cancelled, FinishedFilesStay, UsageError
 from ..core.imports import own_this_process
+from ..core.memory import share_one_heap
 from ..core.words import Flags, use_names
-from ..engine.memory import share_one_heap
 from ..tools.listing import COMPOSITIONS, FILE_TOOLS, MAP_TOOLS, POINT_TOOLS
 from .commands import tool_command
 from .options import DONE, FAILED, USAGE, Command, keep_what_was_given

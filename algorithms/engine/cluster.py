@@ -14,6 +14,7 @@ from typing import Any, NamedTuple
 
 from ..core.errors import BareEarthError, Cancelled
 from ..core.files import write_errors_told
+from ..core.memory import free_memory
 from ..core.progress import Progress
 from ..core.temporary import make_temporary, remove_temporary
 from ..core.threads import SharedThreads
@@ -21,7 +22,7 @@ from ..core.words import option
 from ..las.backends import require
 from .blockwise import JobProgress
 from .jobs import Job, JobResult, Share, attempt
-from .memory import Resources, free_memory
+from .memory import Resources
 from .workers import Running, Workers, scheduler_gone
 
 _CONNECTING = "15s"

@@ -12,7 +12,9 @@ from typing import Any, Iterator, Sequence
 import numpy as np
 
 from ..classes.point_counts import by_class, count_classes
+from ..core.disk_arrays import ValuesOnDisk
 from ..core.files import write_errors_told
+from ..core.memory import GIGABYTE, GivingBack
 from ..core.points import Frame
 from ..core.progress import SILENT, Progress
 from ..core.unnamed import unnamed_file
@@ -26,8 +28,8 @@ from ..las.records import needed
 from ..las.unpacked import has_room, unpack
 from ..las.writing import layers_kept, write_changed
 from ..survey.shapes import Place
-from .disk_store import DiskStore, ValuesOnDisk
-from .memory import GIGABYTE, GivingBack, Resources
+from .disk_store import DiskStore
+from .memory import Resources
 from .memory_store import MemoryStore
 from .step import CLASSES, PointStep, Step
 from .store import Store

@@ -5,9 +5,9 @@ from __future__ import annotations
 import re
 from typing import Iterable, Sequence
 
+from ..core.memory import GIGABYTE
 from ..core.progress import Progress
 from ..core.words import first_of
-from .memory import GIGABYTE
 from .summary import JobCost
 
 # Numbers and names of files, in which messages of jobs may differ.

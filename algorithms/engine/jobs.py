@@ -16,6 +16,7 @@ from typing import Any, Iterator, Mapping, NamedTuple
 import numpy as np
 
 from ..core.errors import BareEarthError, Cancelled
+from ..core.memory import PeakMemory
 from ..core.progress import Notes, Progress
 from ..core.threads import SharedThreads
 from ..las.cloud import PointCloud
@@ -26,7 +27,7 @@ from .block_grid import BlockIndex, memory_of
 from .disk_store import DiskStore
 from .file_points import FilePoints, TileResult, copies_all_else, memory_of_file
 from .manifest import Fingerprint, write_record
-from .memory import PeakMemory, Resources
+from .memory import Resources
 from .memory_store import MemoryStore
 from .step import Sink
 from .store import Store

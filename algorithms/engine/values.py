@@ -13,13 +13,13 @@ from typing import Any, Iterable, Iterator, Mapping, Sequence
 
 import numpy as np
 
+from ..core.disk_arrays import RowsOnDisk, rows_in
 from ..core.errors import BareEarthError
 from ..core.files import replacing
 from ..core.points import Box
 from ..las.cloud import PointCloud
 from ..las.lasfile import LasFile
 from .block_grid import BlockGrid, BlockIndex, code
-from .disk_store import RowsOnDisk, rows_in
 from .step import PointStep
 from .store import Store
 

@@ -16,12 +16,13 @@ from typing import Any, Callable, Hashable, Iterable, Sequence
 import numpy as np
 
 from ..core.errors import NoGround
+from ..core.memory import GIGABYTE, GivingBack, give_back
 from ..core.progress import SILENT, Progress
 from ..las.cloud import PointCloud
 from .block_grid import BlockGrid, BlockIndex
 from .blocks import PlaneBlock, Visit
 from .blockwise import run_jobs
-from .memory import GIGABYTE, Cost, GivingBack, Resources, give_back
+from .memory import Cost, Resources
 from .memory_store import MemoryStore
 from .step import PointStep, Step
 from .store import Store

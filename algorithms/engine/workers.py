@@ -25,13 +25,14 @@ from typing import Any, Callable, Iterator, NamedTuple, TypeVar
 
 from ..core.errors import BareEarthError
 from ..core.imports import import_only_what_runs_need, own_this_process
+from ..core.memory import give_back, share_one_heap
 from ..core.temporary import remove_leftovers
 from ..core.threads import Counter, SharedThreads
 from ..core.words import Keywords, names_in_use, option, use_names
 from .blockwise import JobProgress, as_they_end
 from .jobs import Job, JobResult, Share, attempt
 from .manifest import folders_of
-from .memory import Resources, give_back, share_one_heap
+from .memory import Resources
 
 # Seconds that jobs have to stop by themselves when the user cancels.
 _PATIENCE = 0.7

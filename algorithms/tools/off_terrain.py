@@ -14,9 +14,9 @@ from typing import Callable
 import numpy as np
 
 from ..core.errors import BareEarthError
+from ..core.memory import GIGABYTE, free_memory
 from ..core.parameters import ParameterSet, parameter
 from ..core.progress import SILENT, Progress
-from ..engine.memory import GIGABYTE, free_memory
 from ..grids.inpaint import inpaint
 from ..grids.morphology import opening
 from ..rasters.content import NO_CELLS, Source

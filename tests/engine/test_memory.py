@@ -12,7 +12,8 @@ from surveys import cloud_of, cut, strip
 
 import bare_earth
 from bare_earth import Progress
-from bare_earth.algorithms.engine.memory import Resources, give_back
+from bare_earth.algorithms.core.memory import give_back
+from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.engine.visits import Work, visited
 from bare_earth.algorithms.las.cloud import survey_frame
 from bare_earth.algorithms.tools.heights import MeasureHeights

@@ -19,6 +19,7 @@ from surveys import write_points
 
 import bare_earth
 from bare_earth import BareEarthError, Cancelled
+from bare_earth.algorithms.core import disk_arrays
 from bare_earth.algorithms.engine import disk_store
 from bare_earth.algorithms.engine.blocks import Blocks
 from bare_earth.algorithms.las import copc, copc_octree, copc_points, reading
@@ -292,7 +293,7 @@ def test_a_killed_run_leaves_nothing_beside_the_output(module, number, tmp_path)
 def test_a_block_without_cells_is_read_from_disk(tmp_path):
     # Blocks are cut where memory is short, and some then have points only round them.
     np.savez(tmp_path / "block.npz", none=np.zeros((3, 0)), some=np.arange(6).reshape(3, 2))
-    rows = disk_store.rows_in(tmp_path / "block.npz")
+    rows = disk_arrays.rows_in(tmp_path / "block.npz")
     assert rows["none"][:, :].shape == (3, 0)
     assert rows["some"][1:3, :].tolist() == [[2, 3], [4, 5]]
 
@@ -311,7 +312,7 @@ def test_threads_read_the_arrays_of_blocks_at_once(tmp_path):
     try:
         with ThreadPoolExecutor(8) as pool:
             paths = [tmp_path / "block.npz"] * 300
-            found = list(pool.map(lambda path: len(disk_store.rows_in(path)), paths))
+            found = list(pool.map(lambda path: len(disk_arrays.rows_in(path)), paths))
     finally:
         gc.callbacks.remove(hand_over)
         gc.set_threshold(*before)

@@ -13,11 +13,12 @@ from runs import Heard, memory_store
 import bare_earth
 from bare_earth import BareEarthError, Cancelled, Progress
 from bare_earth.algorithms.classes.selection import Selection
+from bare_earth.algorithms.core.memory import free_memory
 from bare_earth.algorithms.core.threads import workers
 from bare_earth.algorithms.engine.blocks import Blocks
 from bare_earth.algorithms.engine.blockwise import run_jobs
 from bare_earth.algorithms.engine.disk_store import DiskStore
-from bare_earth.algorithms.engine.memory import Cost, Resources, free_memory
+from bare_earth.algorithms.engine.memory import Cost, Resources
 from bare_earth.algorithms.engine.store import Marks
 from bare_earth.algorithms.engine.visits import Work, visited
 from bare_earth.algorithms.filters import METHODS

@@ -9,10 +9,10 @@ from types import SimpleNamespace
 import pytest
 from shipped import nodes
 
-from bare_earth.algorithms.core import commands
+from bare_earth.algorithms.core import commands, memory
 from bare_earth.algorithms.core.commands import shell_line
-from bare_earth.algorithms.engine import memory
-from bare_earth.algorithms.engine.memory import Resources, free_memory
+from bare_earth.algorithms.core.memory import free_memory
+from bare_earth.algorithms.engine.memory import Resources
 from bare_earth.algorithms.engine.workers import Processes
 
 pytestmark = pytest.mark.processes
