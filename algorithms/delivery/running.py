@@ -59,7 +59,7 @@ def deliver(
         folders = DeliveryFolder(working), place, unpacked
         content = DELIVERIES[delivery]
         job = DeliveryJob(content, files, sets, inputs, summary, *folders, workers, named)
-        _tell_settings(job, messages)
+        _report_settings(job, messages)
         summary.seconds = job.seconds
         try:
             job.work(rows_of(job), messages.part(0.01, 0.97))
@@ -89,7 +89,7 @@ def deliver(
     return summary
 
 
-def _tell_settings(job: DeliveryJob, progress: Progress) -> None:
+def _report_settings(job: DeliveryJob, progress: Progress) -> None:
     """Tell which parameters the user gave, and which the delivery sets."""
     asked, chosen = (
         ", ".join(f"{name.replace('_', ' ')} {setting_in_words(value)}" for name, value in found)

@@ -28,8 +28,8 @@ from .copc_format import (
     new_header,
     new_vlrs,
     record_length,
+    report_format,
     stated_cube,
-    tell_of_format,
 )
 from .copc_octree import (
     TOP,
@@ -69,7 +69,7 @@ def write_copc(
     # target; the output does not depend on that.
     layout = rewriting.target
     point_format = NEW_FORMATS[layout.point_format]
-    tell_of_format(layout, point_format, progress)
+    report_format(layout, point_format, progress)
     vlrs, evlrs = new_vlrs(layout, point_format, progress), kept_evlrs(layout)
     statistics, length = Statistics(layout), record_length(layout)
     most = layout.count if memory is None else most_in_memory(memory, length)

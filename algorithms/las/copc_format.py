@@ -192,7 +192,7 @@ def _wkt(layout: LasFile, progress: Progress) -> Vlr | None:
     return new_vlr(WKT_RECORD, text.encode() + b"\0", "OGC WKT Coordinate System")
 
 
-def tell_of_format(layout: LasFile, point_format: int, progress: Progress) -> None:
+def report_format(layout: LasFile, point_format: int, progress: Progress) -> None:
     """Report what changes and what is lost."""
     if layout.point_format in _WITH_WAVEFORMS:
         progress.warning(

@@ -247,7 +247,7 @@ class LasFile:
             if are_all:
                 raise BareEarthError(f"{name} of all points of {self.path} is {value}{_CUT_OFF}")
 
-    def tell_limits(self, progress: Progress) -> None:
+    def report_limits(self, progress: Progress) -> None:
         """Warn of points some of whose coordinates are cut off at the limit of 32 bits."""
         for name, value, are_all in self._cut_off:
             if not are_all:

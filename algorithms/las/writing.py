@@ -85,7 +85,7 @@ def write_changed(
             _write(rewriting, temporary, progress)
         layout.check_unchanged()
     if not is_copc(target):
-        _tell_of_waveforms(layout, target, progress)
+        _report_waveforms(layout, target, progress)
 
 
 def write_without_points(layout: LasFile, target: Path) -> None:
@@ -142,7 +142,7 @@ def _replace_classes(
     layout = rewriting.target
     dropped = (COPC_INFO, COPC_HIERARCHY) if kept.octree is None else ()
     if kept.octree is None:
-        _tell_of_index(layout, progress)
+        _report_index(layout, progress)
     with open(target, "w+b") as file:
         vlrs = tuple(vlr for vlr in layout.vlrs if vlr.key not in dropped)
         file.write(layout.prefix(vlrs, compressed=True))
@@ -154,7 +154,7 @@ def _replace_classes(
             kept.octree.write(file, kept.layers.moved, shift)
 
 
-def _tell_of_index(layout: LasFile, progress: Progress) -> None:
+def _report_index(layout: LasFile, progress: Progress) -> None:
     if layout.is_copc:
         progress.info(
             "The points stay in the order of the COPC file, but its index is left out. To keep the"
@@ -165,7 +165,7 @@ def _tell_of_index(layout: LasFile, progress: Progress) -> None:
 def _write(rewriting: EditedFile, target: Path, progress: Progress) -> None:
     rewriting.check_classes()
     layout = rewriting.target
-    _tell_of_index(layout, progress)
+    _report_index(layout, progress)
     compressed = target.suffix.lower() == ".laz"
     vlrs = [vlr for vlr in layout.vlrs if vlr.key not in (LASZIP, COPC_INFO)]
     laszip = laszip_vlr(layout.point_format, layout.extra_bytes) if compressed else None
@@ -228,7 +228,7 @@ def _copy_tail(rewriting: EditedFile, file: BinaryIO, *dropped: tuple[str, int])
         file.write(struct.pack("<I", len(layout.evlrs) - len(tail) + 1))
 
 
-def _tell_of_waveforms(layout: LasFile, target: Path, progress: Progress) -> None:
+def _report_waveforms(layout: LasFile, target: Path, progress: Progress) -> None:
     if layout.global_encoding & _EXTERNAL_WAVEFORMS:
         named = Path(shown(target))  # not that of a temporary file
         progress.warning(

@@ -99,7 +99,7 @@ def read_content(source: Source, band: int = 1, window: Window | None = None) ->
     return content
 
 
-def tell_of_undeclared(source: Source, band: int, progress: Progress) -> None:
+def report_undeclared(source: Source, band: int, progress: Progress) -> None:
     """Warn of undeclared values for no data that occurred in a raster."""
     if isinstance(source, MemoryRaster):
         found: Undeclared | None = source.undeclared

@@ -15,7 +15,7 @@ from ..crs.measurable import length_scale, wrong_lengths
 from ..crs.system import Crs, crs_of_wkt, same_unit, unit_name, unit_symbol
 from ..crs.unit_names import unit_in
 from ..crs.wkt import read_wkt
-from .content import MOST_WITH_EMPTY, Content, Source, Window, read_content, tell_of_undeclared
+from .content import MOST_WITH_EMPTY, Content, Source, Window, read_content, report_undeclared
 from .stored import Stored, stored_in
 
 NODATA = -9999.0
@@ -140,7 +140,7 @@ class HeightBand(NamedTuple):
 
     def tell(self, progress: Progress) -> None:
         """Warn, after the cells have been read, of undeclared values for no data."""
-        tell_of_undeclared(self.source, self.band, progress)
+        report_undeclared(self.source, self.band, progress)
 
     @property
     def crs(self) -> Crs:
@@ -217,7 +217,7 @@ def frame_of(source: Source, content: Content, progress: Progress = SILENT) -> F
         )
         horizontal = 1.0
     of_band, of_crs = stated_units(content)
-    tell_of_units(source, of_band, of_crs, progress)
+    report_units(source, of_band, of_crs, progress)
     vertical = of_band or of_crs
     if vertical is None:
         vertical = horizontal
@@ -229,7 +229,7 @@ def frame_of(source: Source, content: Content, progress: Progress = SILENT) -> F
     return Frame((0.0, 0.0), horizontal, vertical, content.wkt or None)
 
 
-def tell_of_units(
+def report_units(
     source: Source, used: float | None, of_crs: float | None, progress: Progress
 ) -> None:
     """Warn if the CRS states another unit of heights than the one that is used."""

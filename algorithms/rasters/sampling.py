@@ -14,8 +14,8 @@ from ..core.progress import SILENT, Progress
 from ..crs.matching import is_same_map, other_datums
 from ..crs.system import Crs, crs_of_wkt, same_unit, unit_name
 from ..crs.wkt import read_wkt
-from .content import MemoryRaster, Source, tell_of_undeclared
-from .geotiff import read_raster, tell_of_units
+from .content import MemoryRaster, Source, report_undeclared
+from .geotiff import read_raster, report_units
 
 _SIDE = 512  # cells along a side of the squares that are read
 _MOST_KEPT = 16  # most squares in memory
@@ -81,8 +81,8 @@ class HeightRaster:
     def tell(self, crs: Crs, progress: Progress) -> None:
         """Warn if heights of points in a CRS may not be comparable with those of the raster."""
         facts = read_wkt(self.crs.wkt) if self.crs and self.crs.wkt else None
-        tell_of_undeclared(self.path, 1, progress)
-        tell_of_units(self.path, self.unit, facts and facts.vertical_unit, progress)
+        report_undeclared(self.path, 1, progress)
+        report_units(self.path, self.unit, facts and facts.vertical_unit, progress)
         if self.unit and not self.states_unit and not same_unit(self.unit, crs.vertical_unit):
             progress.warning(
                 f"{self.path} does not state the unit of its heights: {unit_name(self.unit)} is"
@@ -94,7 +94,7 @@ class HeightRaster:
             if told := other_datums(names, self.crs, crs):
                 progress.warning(f"{told} They are compared as they are.")
 
-    def tell_of_heights(
+    def report_heights(
         self, heights: np.ndarray, unit: float, above: float, progress: Progress
     ) -> None:
         """Warn if nearly all points lie far above or far below the raster."""

@@ -122,7 +122,7 @@ def write_geotiff(
         values = RasterCells.of(values)
     band = Band.of(grid, nodata, shows, values.bands)
     if "{unit}" in shows and band.wkt != grid.frame.wkt:
-        _tell_of_heights(progress)
+        _report_heights(progress)
     with Outputs() as outputs:
         _writer()(raster_file(outputs, target), values, grid, band, progress)
 
@@ -222,7 +222,7 @@ def _describe(
             dataset.SetProjection(with_unit_of_heights(reference.ExportToWkt()))
         elif reference.ImportFromWkt(of_map(about.wkt)) == 0:
             dataset.SetProjection(reference.ExportToWkt())
-            _tell_of_heights(progress)
+            _report_heights(progress)
         else:
             _warn_without_crs(progress)
         errors.clear()
@@ -313,13 +313,13 @@ def _crs_of(wkt: str | None, progress: Progress) -> CRS | None:
             return crs if changed == text else CRS.from_wkt(changed)
     except CRSError:
         if wkt != of_map(wkt):
-            _tell_of_heights(progress)
+            _report_heights(progress)
             return _crs_of(of_map(wkt), progress)
         _warn_without_crs(progress)
         return None
 
 
-def _tell_of_heights(progress: Progress) -> None:
+def _report_heights(progress: Progress) -> None:
     progress.warning(
         "The raster states the CRS of x and y, but not that of its heights, which GeoTIFF cannot"
         " state, such as heights above the ellipsoid."

@@ -118,7 +118,7 @@ def fetch(
                 raise nothing_there(parts, address)
     except BaseException:
         if is_planned or was_begun:
-            _tell_of_rest(waiting, progress)
+            _report_rest(waiting, progress)
         else:
             remove_parts(waiting)
         raise
@@ -264,7 +264,7 @@ def nothing_there(parts: Sequence[CloudPart], address: str) -> Outside:
     )
 
 
-def _tell_of_rest(waiting: Path, progress: Progress) -> None:
+def _report_rest(waiting: Path, progress: Progress) -> None:
     """Tell the user where downloads are kept for the next run; remove a folder without any."""
     size = _size_of_parts(waiting)
     if not size:

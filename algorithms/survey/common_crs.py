@@ -43,11 +43,11 @@ def common_crs(tiles: list[LasFile], stated: list[Crs], progress: Progress) -> C
         )
     if unstated:
         progress.warning(f"{lack} that of the others is used, {known[0].name}.")
-    _tell_of_datums(tiles, stated, known[0], progress)
+    _report_datums(tiles, stated, known[0], progress)
     return known[0]
 
 
-def _tell_of_datums(
+def _report_datums(
     tiles: list[LasFile], stated: list[Crs], common: Crs, progress: Progress
 ) -> None:
     """Report vertical datums that may differ, and files that state none."""

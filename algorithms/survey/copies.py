@@ -34,7 +34,7 @@ def copies_in(tiles: Sequence[LasFile], are_named: Sequence[bool], progress: Pro
     return set(copies)
 
 
-def tell_of_twins(tiles: Sequence[LasFile], progress: Progress) -> None:
+def report_twins(tiles: Sequence[LasFile], progress: Progress) -> None:
     """Warn of files that seem to hold the same points, such as copies with other names."""
     seen: dict[tuple[float, ...], LasFile] = {}
     for tile in tiles:

@@ -24,8 +24,8 @@ from ..las.opening import NoPoints, open_las
 from ..las.reading import read_parts
 from ..las.sources import read_text
 from .common_crs import common_crs, names_of
-from .copies import copies_in, tell_of_twins
-from .pieces import FilePiece, pieces_of, tell_of_strays
+from .copies import copies_in, report_twins
+from .pieces import FilePiece, pieces_of, report_strays
 from .shapes import Place
 from .vpc import SUFFIX as VPC_SUFFIX
 from .vpc import is_overview, no_extent, read_vpc
@@ -83,8 +83,8 @@ class Inputs(Tuple[Path, ...]):
             return open_survey(self, progress)
         las = open_las(self[0], self.stated)
         survey = Survey((las,), (), read_crs(las), self.stated)
-        las.tell_limits(progress)
-        tell_of_strays(survey.pieces, progress)
+        las.report_limits(progress)
+        report_strays(survey.pieces, progress)
         return survey
 
 
@@ -191,11 +191,11 @@ def open_survey(sources: Sources, progress: Progress = SILENT) -> Survey:
     pairs = [pair for pair in zip(tiles, systems) if pair[0].path not in copies]
     tiles, systems = (list(column) for column in zip(*pairs))
     crs = common_crs(tiles, systems, progress)
-    tell_of_twins(tiles, progress)
+    report_twins(tiles, progress)
     survey = Survey(tuple(tiles), tuple(broken), crs, stated, tuple(empty))
     for tile in tiles:
-        tile.tell_limits(progress)
-    tell_of_strays(survey.pieces, progress)
+        tile.report_limits(progress)
+    report_strays(survey.pieces, progress)
     return survey
 
 
@@ -238,7 +238,7 @@ def _expand(source: Path, recursive: bool, progress: Progress) -> Iterator[Path]
                 yield path
     elif suffix == VPC_SUFFIX:
         paths = read_vpc(source)
-        _tell_of_files_elsewhere(source, paths, progress)
+        _report_files_elsewhere(source, paths, progress)
         yield from paths
     elif suffix in _LISTS:
         for path in _listed(source):
@@ -274,7 +274,7 @@ def _table(source: Path) -> BareEarthError:
     )
 
 
-def _tell_of_files_elsewhere(source: Path, paths: list[Path], progress: Progress) -> None:
+def _report_files_elsewhere(source: Path, paths: list[Path], progress: Progress) -> None:
     """Warn if a virtual point cloud lists files outside its folder and the subfolders."""
     folder = source.parent.resolve()
     elsewhere = [path for path in paths if folder not in path.resolve().parents]

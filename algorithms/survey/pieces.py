@@ -114,7 +114,7 @@ def _distance(boxes: np.ndarray, others: np.ndarray) -> float:
     return least
 
 
-def tell_of_strays(pieces: Iterable[FilePiece], progress: Progress) -> None:
+def report_strays(pieces: Iterable[FilePiece], progress: Progress) -> None:
     """Warn of points that lie far from all others."""
     stray = [piece for piece in pieces if piece.is_stray]
     for piece in stray[:_MOST_TOLD]:

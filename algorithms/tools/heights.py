@@ -206,7 +206,7 @@ class HeightsOfPoints(PointResult):
             dtm.tell(cloud.crs, progress)
             if self._unknown_count and self._as_z:
                 raise self._no_z(dtm)
-            dtm.tell_of_heights(self.heights, self._unit, FAR_ABOVE, progress)
+            dtm.report_heights(self.heights, self._unit, FAR_ABOVE, progress)
         if self._unknown_count and not self._as_z:
             why = "no ground is near" if dtm is None else "the raster has no value there"
             words = f"{self._unknown_count:,} of {len(self.heights):,} points"

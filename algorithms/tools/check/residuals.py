@@ -101,7 +101,7 @@ def residuals_of(
     heights = ground.heights(places, max_edge, progress).heights
     if model is not None:
         model.tell(crs, progress)
-        model.tell_of_heights(heights - dtm * up, 1.0, FAR_BELOW, progress)
+        model.report_heights(heights - dtm * up, 1.0, FAR_BELOW, progress)
     if ground.counts.classes.any():  # else no file is near, and all checkpoints are outside
         ground.check()
     kinds, unknown = kinds_of(checkpoints, LandCovers(vegetated), progress)

@@ -24,7 +24,7 @@ from ...las.reading import require_packages
 from ...las.records import read_records
 from ...las.return_numbers import FROM_ZERO, begin_at_zero
 from ...survey.files import Inputs, find_files
-from ...survey.pieces import pieces_of, tell_of_strays
+from ...survey.pieces import pieces_of, report_strays
 from ...survey.scratch import ScratchArrays
 from ..declaration import CRS, FileTool, Input
 from .checks import CHECKS, counts_of
@@ -42,7 +42,7 @@ def describe(source: Inputs, progress: Progress = SILENT) -> Description | Surve
     """Return what files hold, and what is wrong with them, after reading all of their points."""
     if not source.is_survey:
         layout = _opened(source[0], source.stated)
-        _tell_of_strays([layout], progress)
+        _report_strays([layout], progress)
         return _described(layout, progress)
     paths = find_files(source, source.recursive)
     files, unreadable = [], {}
@@ -53,16 +53,16 @@ def describe(source: Inputs, progress: Progress = SILENT) -> Description | Surve
             files.append(_described(layouts[-1], share.quiet()))
         except BareEarthError as error:
             unreadable[str(path)] = str(error)
-    _tell_of_strays(layouts, progress)
+    _report_strays(layouts, progress)
     return _of_survey(files, unreadable)
 
 
-def _tell_of_strays(layouts: Sequence[LasFile], progress: Progress) -> None:
+def _report_strays(layouts: Sequence[LasFile], progress: Progress) -> None:
     """Warn of points that lie far from all others, if the files have one unit."""
     filled = [layout for layout in layouts if layout.count and layout.states_extent]
     units = {read_crs(layout).horizontal_unit for layout in filled}
     if len(units) == 1:
-        tell_of_strays(pieces_of(filled, units.pop()), progress)
+        report_strays(pieces_of(filled, units.pop()), progress)
 
 
 def _opened(path: Path, stated: str | None) -> LasFile:
