@@ -16,7 +16,6 @@ from .options import TileOutput
 from .step import Step
 
 if TYPE_CHECKING:
-    from .survey_run import ManyFiles
     from .workers import Workers
 
 
@@ -43,7 +42,7 @@ class Run:
         # `target`, and the virtual point cloud of a survey, are None if no step computes a value
         # for each point. The workers are by default threads of this process. All but the files of a
         # survey get their names when `outputs` ends, or else at the end of the run.
-        kind: type[OneFile | ManyFiles] = OneFile
+        kind: Any = OneFile
         if inputs.is_survey:
             from .survey_run import ManyFiles
 
