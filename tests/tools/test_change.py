@@ -258,6 +258,22 @@ def test_the_ground_of_clouds_is_found_first(tmp_path):
     assert found.by_error
 
 
+def test_no_limit_is_given_where_a_date_has_no_ground_points(tmp_path):
+    old, new = cloud(tmp_path / "old.las", 1, side=60.0), tmp_path / "new.las"
+    las = laspy.read(cloud(new, 2, side=60.0))
+    roof = (np.abs(las.x - WEST - 30.0) < 8.0) & (np.abs(las.y - NORTH - 30.0) < 10.0)
+    las.z[roof] += 6.0
+    las.classification[roof] = 6
+    las.write(new)
+    files = old, new, tmp_path / "out.tif"
+    found = bare_earth.change(*files, limit=tmp_path / "limit.tif", find_ground=False)
+    gap = np.isnan(cells(tmp_path / "limit.tif")) & np.isfinite(cells(files[2]))
+    hidden = np.count_nonzero(gap[24:36, 26:34])
+    assert hidden == gap[24:36, 26:34].size and np.count_nonzero(gap) <= 16 * 20
+    assert found.unseen == pytest.approx(np.mean(gap), abs=0.01)
+    assert found.can_tell[1.0] <= 1.0 - found.unseen and f"{found.unseen:.0%} has" in found.text
+
+
 @pytest.mark.rest(but="True")
 @pytest.mark.parametrize("find_ground", [True, False])
 def test_surveys_of_many_files_have_the_change_of_one(tmp_path, find_ground):

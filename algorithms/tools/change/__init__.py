@@ -154,7 +154,7 @@ def _write_rasters(
     def limit_of(strip: Strip) -> np.ndarray:
         slope = strip.steepness(pair.cell)
         limits = limits_of(found.scatter, alignment, strip.spread, slope)
-        return np.where(np.isnan(strip.change), np.nan, limits)
+        return np.where(np.isnan(strip.change) | ~strip.is_seen, np.nan, limits)
 
     def parts(of: Callable[[Strip], np.ndarray], part: Progress) -> Iterator[RasterPart]:
         for strip in pair.strips(part):

@@ -31,7 +31,8 @@ from ..canopy import is_same_grid
 from ..ground.method import TileMethod
 from ..ground.step import LabelGround
 from ..rasters.parameters import TerrainModel
-from ..rasters.tool import rasters_of
+from ..rasters.rows import RasterFiles
+from ..rasters.step import MakeRasters
 
 # Cells of a strip, and rows beyond it that places near its border need.
 _CELLS = 4_000_000
@@ -40,6 +41,7 @@ MARGIN = 12
 _FEET = 0.3048
 _ALIKE = 0.01
 _LEAST_HEIGHT = 20.0  # metres: of lower land the ratio says nothing
+SEEN = 2.0  # metres from ground points of both dates up to which their terrains can show a change
 
 
 class Strip(NamedTuple):
@@ -51,11 +53,18 @@ class Strip(NamedTuple):
     old: np.ndarray
     new: np.ndarray
     spread: np.ndarray  # what 95 of 100 differences do not exceed by both expected errors, or NaN
+    # To the ground points of that date whose lie farther away, as far as that is known; or 0.
+    distance: np.ndarray
 
     @property
     def change(self) -> np.ndarray:
         """New minus old, as the rasters have them."""
         return self.new - self.old
+
+    @property
+    def is_seen(self) -> np.ndarray:
+        """Which cells have ground points of both dates near them, as far as that is known."""
+        return self.distance <= SEEN
 
     def slopes(self, cell: float) -> tuple[np.ndarray, np.ndarray]:
         """Return the slope of the old terrain towards east and north, rise over run."""
@@ -74,6 +83,7 @@ class Pair(NamedTuple):
     old: Windows
     new: Windows
     errors: tuple[Windows, Windows] | None  # the expected errors of both
+    distances: tuple[Windows | None, Windows | None]  # to the ground points of each
 
     @property
     def cell(self) -> float:
@@ -101,8 +111,12 @@ class Pair(NamedTuple):
         spread = np.full(old.shape, np.nan, dtype=np.float32)
         if self.errors is not None:
             spread = np.hypot(self.errors[0][window], self.errors[1][window])
+        distance = np.zeros(old.shape, dtype=np.float32)
+        for of_date in self.distances:
+            if of_date is not None:
+                distance = np.maximum(distance, of_date[window])
         row, column = (max(part.start, 0) for part in window)
-        return Strip(row, column, slice(0, len(old)), old, new, spread)
+        return Strip(row, column, slice(0, len(old)), old, new, spread, distance)
 
     def places(self, rows: np.ndarray, columns: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return where cells lie, in metres east and north of the middle of the grid."""
@@ -113,8 +127,10 @@ class Pair(NamedTuple):
         """Return the pair with the new terrain moved by metres."""
         unit = self.grid.frame.horizontal_unit
         move = east / unit, north / unit
+        new = _moved(self.new, self.grid, move)
         errors = self.errors and (self.errors[0], _moved(self.errors[1], self.grid, move))
-        return self._replace(new=_moved(self.new, self.grid, move), errors=errors)
+        distance = self.distances[1] and _moved(self.distances[1], self.grid, move)
+        return self._replace(new=new, errors=errors, distances=(self.distances[0], distance))
 
 
 class Given(NamedTuple):
@@ -123,6 +139,7 @@ class Given(NamedTuple):
     terrain: Source
     error: Source | None = None
     cloud: Inputs | None = None  # the opened points that the terrain has to be made of
+    distance: Source | None = None  # a raster of the distance to them
 
     @property
     def crs(self) -> Crs:
@@ -232,16 +249,18 @@ def _made(
     """Make the terrain model of points, and its expected error."""
     model, method, resources = how
     folder.mkdir()
-    outputs = {"dtm": folder / "dtm.tif", "expected_error": folder / "error.tif"}
+    names = "dtm", "expected_error", "ground_distance"
+    dtm, error, distance = (folder / f"{name}.tif" for name in names)
+    files = RasterFiles(dtm=dtm, expected_error=error, ground_distance=distance)
     ground, steps = GroundClasses(), list[Step]()
     if method is not None:
         steps, ground = [LabelGround(method.parameters)], GroundClasses.of_selection(Selection())
-    steps.append(rasters_of([model], {"raster_target": target}, outputs, ground))
+    steps.append(MakeRasters(files, model, ground=ground, target=target))
     # Rasters of many files are made of written ones.
     written = folder / "points" if cloud.is_survey and method is not None else None
     run = Run(tuple(steps), resources=resources)
     run.work(cloud, written, progress, vpc=written and folder / "points.vpc")
-    return Given(str(outputs["dtm"]), str(outputs["expected_error"]))
+    return Given(str(dtm), str(error), distance=str(distance))
 
 
 def _on_one_grid(
@@ -258,6 +277,10 @@ def _on_one_grid(
     if not math.isclose(width, height, rel_tol=1e-3):
         raise BareEarthError(f"{grid.source} has cells that are no squares. Resample it.")
     old, new = (_windows(date.terrain, raster, grid) for date, raster in zip(dates, rasters))
+    distances = [
+        date.distance and _windows(date.distance, read_raster(date.distance, window=NO_CELLS), grid)
+        for date in dates
+    ]
     errors: list[Windows] = []
     for date, raster in zip(dates, rasters):
         if date.error is not None:
@@ -265,13 +288,13 @@ def _on_one_grid(
             _refuse_other_crs((raster.crs, of_error.crs), [names[0], str(date.error)], False)
             errors.append(_windows(date.error, of_error, grid))
     if len(errors) == 2:
-        return Pair(grid, old, new, (errors[0], errors[1]))
+        return Pair(grid, old, new, (errors[0], errors[1]), (distances[0], distances[1]))
     missing = "Only one date has an expected error" if errors else "There are no expected errors"
     progress.warning(
         f"{missing}: limits follow from stable land alone, and are too small in gaps and under"
         " plants. Give the expected errors of both."
     )
-    return Pair(grid, old, new, None)
+    return Pair(grid, old, new, None, (distances[0], distances[1]))
 
 
 def _windows(source: Source, raster: HeightBand, grid: HeightBand) -> Windows:

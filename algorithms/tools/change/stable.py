@@ -56,6 +56,7 @@ class Sample(NamedTuple):
     change: np.ndarray  # new minus old
     slopes: np.ndarray  # (n, 2), of the old terrain towards east and north
     spread: np.ndarray  # by the expected errors; NaN without them
+    is_seen: np.ndarray  # whether ground points of both dates lie near
     common: int = 0  # number of all common cells
 
     @property
@@ -164,7 +165,7 @@ def sample_of(pair: Pair, names: tuple[str, str], progress: Progress) -> Sample:
         row, column = np.nonzero(known)
         drawn = ((row + strip.row) % step == 0) & (column % step == 0)
         row, column = row[drawn], column[drawn]
-        values = (of[row, column] for of in (strip.change, slopes, strip.spread))
+        values = (of[row, column] for of in (strip.change, slopes, strip.spread, strip.is_seen))
         found.append((*pair.places(row + strip.row, column), *values))
         heights.append((strip.old[row, column], strip.new[row, column]))
     if not common:
@@ -172,8 +173,7 @@ def sample_of(pair: Pair, names: tuple[str, str], progress: Progress) -> Sample:
             f"No cell has a value in both {names[0]} and {names[1]}. Give two surveys of the same"
             " place, neither of which is empty."
         )
-    east, north, change, slopes, spread = map(np.concatenate, zip(*found))
-    sample = Sample(east, north, change, slopes, spread, common)
+    sample = Sample(*map(np.concatenate, zip(*found)), common)
     if len(sample.change) < _LEAST:
         raise BareEarthError(
             f"{names[0]} and {names[1]} have only {common:,} cells in common: too few to tell a"
@@ -191,8 +191,7 @@ def aligned(sample: Sample, kind: str, names: tuple[str, str]) -> Alignment:
     level = sample.slope <= _STEEP
     if np.count_nonzero(level) < max(len(level) * LEAST_SHARE, _LEAST):
         level[:] = True
-    east, north, change, slopes, spread = (column[level] for column in sample[:5])
-    some = Sample(east, north, change, slopes, spread)
+    some = Sample(*(column[level] for column in sample[:6]))
     shift, tilt, weights = _plane(some, kind == "tilt")
     error, errors = _certainty(some, shift, tilt, weights)
     if kind == "tilt" and (np.abs(tilt) < _CERTAIN * errors).all():

@@ -10,7 +10,7 @@ import numpy as np
 from ...core.words import counted
 from ...report.units import Units
 from .judged import EARTH, SAME
-from .pair import Pair
+from .pair import SEEN, Pair
 from .places import ChangePlace, limits_of
 from .stable import Alignment, Sample, Scatter
 
@@ -46,6 +46,7 @@ class ChangeSummary:
     nmad: float  # of the difference on stable land
     median_limit: float  # of the detection limits
     can_tell: dict[float, float]  # share of the area in which a change of so many metres is told
+    unseen: float  # share of the area without ground points of both dates nearby
     by_error: bool  # whether limits follow from expected errors
 
     @property
@@ -69,6 +70,10 @@ class ChangeSummary:
             ("NMAD of stable land", units.height(self.nmad)),
             ("Detection limit of a cell, median", units.height(self.median_limit)),
             ("A change can be told, share of the area", ", ".join(told)),
+            (
+                f"No ground points of a date within {units.length(SEEN)}, share of the area",
+                f"{self.unseen:.0%}",
+            ),
         ]
 
     def _volumes(self, units: Units) -> tuple[str, ...]:
@@ -88,11 +93,15 @@ class ChangeSummary:
         """The result in sentences."""
         left = f" Left out: {counted(self.left_out, 'place')}, {SAME}." * (self.left_out > 0)
         told = ", ".join(f"{metres:g} m in {share:.0%}" for metres, share in self.can_tell.items())
+        hidden = (
+            f" {self.unseen:.0%} has no ground points of a date within {SEEN:g} m: what is smaller"
+            " than these gaps can hide there."
+        ) * (self.unseen >= 0.005)
         up, down = self._volumes(Units())
         return (
             f"{counted(self.place_count, 'place')} of significant change; earth, probably, in"
             f" {self.earth_count:,}: {up} up, {down} down (errors 95 %).{left} Taken off:"
-            f" {self.alignment.text}. A change can be told: {told} of the area."
+            f" {self.alignment.text}. A change can be told: {told} of the area.{hidden}"
         )
 
 
@@ -119,7 +128,11 @@ def summary_of(found: Found, left_out: int) -> ChangeSummary:
         alignment=alignment,
         nmad=round(found.scatter.nmad, 4),
         median_limit=round(float(np.nanmedian(limits)), 3),
-        can_tell={metres: round(float(np.mean(limits <= metres)), 4) for metres in TOLD},
+        can_tell={
+            metres: round(float(np.mean((limits <= metres) & sample.is_seen)), 4)
+            for metres in TOLD
+        },
+        unseen=round(float(np.mean(~sample.is_seen)), 4),
         by_error=found.scatter.by_error,
     )
 

@@ -13,7 +13,7 @@ from ...core.progress import SILENT, Progress
 from ...core.threads import over_parts
 from ...grids.cell_window import CellWindow
 from ...grids.cells import Cells, are_inside
-from ...grids.expected_error import CELL, causes_of, error_of, evidence
+from ...grids.expected_error import CELL, Evidence, causes_of, error_of, evidence
 from ...grids.morphology import within_square
 from ...tin.dense_surface import DenseSurface
 from .block_view import BlockView, LayerCells, LayerSizes, Made
@@ -163,7 +163,11 @@ def _terrain(
 
 
 # What the evidence for errors tells, by the layers.
-_OF_EVIDENCE = {"expected_error": error_of, "error_cause": causes_of}
+OF_EVIDENCE: dict[str, Callable[[Evidence], np.ndarray]] = {
+    "expected_error": error_of,
+    "error_cause": causes_of,
+    "ground_distance": lambda pieces: pieces.gap,
+}
 
 
 def _errors(
@@ -173,12 +177,12 @@ def _errors(
     made: Made,
     progress: Progress,
 ) -> LayerCells:
-    """Return the expected error and its cause, if wanted, at the centre of each cell;
-    their evidence is found once, in cells of 1 m.
+    """Return what the evidence for errors tells, of what is wanted, at the centre of each cell; it
+    is found once, in cells of 1 m.
     """
     found = {
         name: np.full(window.shape, np.nan, dtype=np.float32)
-        for name in _OF_EVIDENCE
+        for name in OF_EVIDENCE
         if name in step.layers
     }
     if not view.points.count or window.is_empty:
@@ -196,7 +200,7 @@ def _errors(
     )
     pieces = evidence(cells, view.points.z, view.ground, rows, columns)
     for name, values in found.items():
-        of_cells = _OF_EVIDENCE[name](pieces)
+        of_cells = OF_EVIDENCE[name](pieces)
         values[np.ix_(*inside)] = of_cells[np.ix_(of_rows, of_columns)]
     return found, {}
 
@@ -215,5 +219,5 @@ LAYERS = {
     "terrain": BlockLayer(_terrain, 3.0, of_ground=True, of_all=False),
     "surface": BlockLayer(surfaces, 4.0, of_ground=False, of_all=True),
     "canopy": BlockLayer(surfaces, 6.0, of_ground=True, of_all=True),
-    **dict.fromkeys(_OF_EVIDENCE, BlockLayer(_errors, 1.5, of_ground=True, of_all=True)),
+    **dict.fromkeys(OF_EVIDENCE, BlockLayer(_errors, 1.5, of_ground=True, of_all=True)),
 }

@@ -16,7 +16,7 @@ from ...grids.outline import Outline, Span, spans
 from ...rasters.sparse import RasterPart
 from ...survey.area import Area
 from ...tin.surface import CellLattice, Surface
-from .block import CONTENTS, TOP, BlockRasters
+from .block import CONTENTS, OF_EVIDENCE, TOP, BlockRasters
 from .level_water import NO_WATER_CELLS, WaterCells
 
 
@@ -71,7 +71,7 @@ class Mosaic:
         elif self._layer in ("surface", "canopy"):
             has_top = joined(self._blocks, CONTENTS, window, np.uint8(0)) >= TOP
             self._water.burn(heights, window, has_top)
-        elif self._layer in ("expected_error", "error_cause"):
+        elif self._layer in OF_EVIDENCE:
             # It tells what the ground points are worth, and the terrain of these cells has none.
             heights[self._water.inside(window)] = np.nan
         if self._outlines:

@@ -31,7 +31,7 @@ from .level_water import WaterCells
 from .mosaic import Mosaic, made_parts
 from .outlines import CellContents, Outlines, mosaics_of
 from .parameters import SurfaceModel, TerrainModel
-from .rows import RASTERS, How, RasterFiles, RasterRow
+from .rows import How, RasterFiles, RasterRow, row_of
 
 # Writes a raster, given what `write_geotiff` is given.
 WriteCells = Callable[[Path, RasterCells, RasterGrid, float, Progress, str], None]
@@ -119,7 +119,7 @@ def write_rasters(
     expected = ExpectedAccuracy()
     known: dict[str, Known] = {}
     for (name, path), part in zip(step.files.wanted.items(), parts):
-        raster = RASTERS[name]
+        raster = row_of(name)
         measured = outlines.canopy() if raster.needs_both else None
         layers = [mosaics[layer].limited(measured, area) for layer in raster.layers]
         told = expected if name == "expected_error" else None

@@ -271,6 +271,23 @@ RASTERS = {
         bands=3,
     ),
 }
+# What other tools make for themselves.
+_INTERNAL = {
+    "ground_distance": RasterRow(
+        "Distance to the ground",
+        "How far the nearest ground point is.",
+        "Distance, {unit}",
+        lambda distance, how: distance,
+        Look(Ramp(looks.ERRORS, low=0.0), 5),
+        layers=("ground_distance",),
+        is_height=True,
+    ),
+}
+
+
+def row_of(name: str) -> RasterRow:
+    """Return the row of a raster."""
+    return RASTERS.get(name) or _INTERNAL[name]
 
 
 @dataclass(frozen=True, init=False)
@@ -280,10 +297,11 @@ class RasterFiles:
     files: tuple[tuple[str, Path], ...]
 
     def __init__(self, **files: Path | str | None) -> None:
-        unknown = ", ".join(files.keys() - RASTERS.keys())
+        names = (*RASTERS, *_INTERNAL)
+        unknown = ", ".join(files.keys() - set(names))
         if unknown:
             raise TypeError(f"There is no raster {unknown}, only {', '.join(RASTERS)}.")
-        wanted = tuple((name, Path(files[name] or "")) for name in RASTERS if files.get(name))
+        wanted = tuple((name, Path(files[name] or "")) for name in names if files.get(name))
         object.__setattr__(self, "files", wanted)
 
     @property
@@ -294,7 +312,7 @@ class RasterFiles:
     @property
     def layers(self) -> tuple[str, ...]:
         """The layers from which the wanted rasters are made."""
-        names = (layer for raster in self.wanted for layer in RASTERS[raster].layers)
+        names = (layer for raster in self.wanted for layer in row_of(raster).layers)
         return tuple(dict.fromkeys(names))
 
     def outputs(self, per_file: bool = False) -> list[tuple[str, Path]]:
