@@ -53,8 +53,7 @@ class Strip(NamedTuple):
     old: np.ndarray
     new: np.ndarray
     spread: np.ndarray  # what 95 of 100 differences do not exceed by both expected errors, or NaN
-    # To the ground points of that date whose lie farther away, as far as that is known; or 0.
-    distance: np.ndarray
+    distance: np.ndarray  # to the ground points of that date whose lie farther away, or NaN
 
     @property
     def change(self) -> np.ndarray:
@@ -64,7 +63,7 @@ class Strip(NamedTuple):
     @property
     def is_seen(self) -> np.ndarray:
         """Which cells have ground points of both dates near them, as far as that is known."""
-        return self.distance <= SEEN
+        return ~(self.distance > SEEN)
 
     def slopes(self, cell: float) -> tuple[np.ndarray, np.ndarray]:
         """Return the slope of the old terrain towards east and north, rise over run."""
@@ -111,10 +110,10 @@ class Pair(NamedTuple):
         spread = np.full(old.shape, np.nan, dtype=np.float32)
         if self.errors is not None:
             spread = np.hypot(self.errors[0][window], self.errors[1][window])
-        distance = np.zeros(old.shape, dtype=np.float32)
+        distance = np.full(old.shape, np.nan, dtype=np.float32)
         for of_date in self.distances:
             if of_date is not None:
-                distance = np.maximum(distance, of_date[window])
+                distance = np.fmax(distance, of_date[window])
         row, column = (max(part.start, 0) for part in window)
         return Strip(row, column, slice(0, len(old)), old, new, spread, distance)
 

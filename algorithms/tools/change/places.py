@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Iterator, NamedTuple
 
@@ -9,18 +10,22 @@ import numpy as np
 
 from ...core.parameters import ParameterSet, parameter
 from ...core.progress import Progress
+from ...grids.gradient import steepness
 from ...grids.isolines import rings_of
 from ...report.units import Units
-from .pair import Pair
+from .pair import SEEN, Pair
 from .stable import LIMIT, Alignment, Scatter
 
 # Cells round a place that belong to it too, if they changed in the same direction by this share of
 # their limits: so its volume is not cut off at the limit.
 _RIM = 3
 _PART = 0.3
-# Standard errors by which the mean of a place must differ from none: with expected errors, and
-# without, where more errors are unforeseen. Some of many thousand areas differ by chance.
-_CERTAIN, _CERTAIN_OF_SLOPES = 4.0, 6.0
+# Standard errors by which the mean of a place must differ from none: where half of its cells have
+# ground points of both dates near them, where they don't or nobody knows, and without expected
+# errors, where more is unforeseen. Some of many thousand areas differ by chance.
+_CERTAIN, _CERTAIN_IN_GAPS, _CERTAIN_OF_SLOPES = 3.8, 5.0, 6.0
+# The edge of a place can lie anywhere between ground points: by this share of their distance.
+_OFF = 0.5
 _NEIGHBOURS = ((0, 1), (1, -1), (1, 0), (1, 1))
 
 
@@ -128,8 +133,9 @@ def places_of(
 def _cells_over(
     pair: Pair, alignment: Alignment, scatter: Scatter, how: Places, progress: Progress
 ) -> Iterator[tuple[int, list[np.ndarray]]]:
-    """Yield sign, places in the raster, old height, change, limit and whether it is exceeded, of
-    cells over their limits and those round them, strip by strip.
+    """Yield sign, places in the raster, old height, change, limit, whether it is exceeded, distance
+    to ground points, and the error of the change by it, of cells over their limits and those round
+    them, strip by strip.
     """
     from scipy import ndimage
 
@@ -140,6 +146,8 @@ def _cells_over(
         change = alignment.of_strip(pair, strip)
         limit = limits_of(scatter, alignment, strip.spread, slope)
         ratio = np.nan_to_num(change / limit)
+        off = _OFF * (np.nan_to_num(strip.distance) + pair.cell / 2.0)
+        off *= np.nan_to_num(steepness(change, pair.cell))
         for sign in (1, -1):
             labels, _ = ndimage.label(sign * ratio > 1.0, square)
             sizes = np.bincount(labels.ravel())
@@ -149,7 +157,8 @@ def _cells_over(
             grown[: strip.own.start] = grown[strip.own.stop :] = False
             row, column = np.nonzero(grown)
             place = (row + strip.row).astype(np.int64) * pair.grid.whole[1] + column
-            yield sign, [place, *(values[grown] for values in (strip.old, change, limit, over))]
+            columns = strip.old, change, limit, over, strip.distance, off
+            yield sign, [place, *(values[grown] for values in columns)]
 
 
 def _joined(
@@ -163,16 +172,20 @@ def _joined(
     places = []
     for some in connected(cells, pair.grid.whole[1]):
         rows, columns = np.divmod(cells[some], pair.grid.whole[1])
-        old, change, limit, is_over = (value[some] for value in values)
+        old, change, limit, is_over, distance, off = (value[some] for value in values)
         place = ChangePlace(rows, columns, old, change, limit, is_over, pair.cell, 0.0)
         core = float(np.count_nonzero(place.is_over)) * pair.cell**2
         share = scatter.share_of_mean(np.array([core, place.area]))
         mean = float(np.mean((np.abs(place.change) / place.limit)[place.is_over])) * LIMIT
-        if mean < (_CERTAIN if scatter.by_error else _CERTAIN_OF_SLOPES) * share[0]:
+        is_seen = 2 * np.count_nonzero(distance[is_over] <= SEEN) >= np.count_nonzero(is_over)
+        certain = _CERTAIN if is_seen else _CERTAIN_IN_GAPS
+        if mean < (certain if scatter.by_error else _CERTAIN_OF_SLOPES) * share[0]:
             continue
-        by_chance = float(np.sum(place.limit, dtype=np.float64)) * pair.cell**2 * share[1]
-        aligned = alignment.limit * place.area
-        places.append(place._replace(volume_error=float(np.hypot(by_chance, aligned))))
+        by_chance, at_edges = (
+            float(np.sum(errors, dtype=np.float64)) * pair.cell**2 for errors in (limit, off)
+        )
+        errors = by_chance * share[1], at_edges, alignment.limit * place.area
+        places.append(place._replace(volume_error=math.hypot(*errors)))
     return places
 
 
