@@ -6,11 +6,15 @@ from typing import Any, Iterator, Protocol, Tuple
 
 import numpy as np
 
+from .content import Source
 from .geotiff import HeightBand
+from .sampling import HeightRaster, HeightSampler
 from .stored import Stored
 
 # Cells that are read at a time, and that stay until others are looked at.
 _CELLS = 16_000_000
+# Difference of two geotransforms, in cells, up to which the grids are the same.
+_SAME = 1e-3
 Window = Tuple[slice, slice]
 
 
@@ -54,6 +58,47 @@ class RasterWindows:
             cells[:, first:last] = self.raster.rows(start, end, first, last)
         cells *= self._factor
         return cells
+
+
+class SampledWindows:
+    """Heights of a raster at the cells of another one, times a factor; NaN without value."""
+
+    def __init__(
+        self,
+        source: Source,
+        grid: HeightBand,
+        factor: float,
+        move: tuple[float, float] = (0.0, 0.0),
+    ) -> None:
+        self.shape, self.source = grid.whole, source
+        self._grid, self._factor, self._move = grid, factor, move
+        self._heights = HeightSampler(HeightRaster.of(source))
+
+    def moved(self, move: tuple[float, float]) -> SampledWindows:
+        """Return the same heights, moved on by units of the CRS."""
+        east, north = self._move[0] + move[0], self._move[1] + move[1]
+        return SampledWindows(self.source, self._grid, self._factor, (east, north))
+
+    def __getitem__(self, window: Window) -> np.ndarray:
+        """Return the cells of a window within the raster; float64 (rows, columns)."""
+        rows, columns = (
+            np.arange(max(part.start, 0), min(part.stop, count))
+            for part, count in zip(window, self.shape)
+        )
+        column, row = np.meshgrid(columns + 0.5, rows + 0.5)
+        x, a, b, y, c, d = self._grid.geotransform
+        east, north = self._move
+        places = x + a * column + b * row - east, y + c * column + d * row - north
+        return self._heights.heights(*map(np.ravel, places)).reshape(column.shape) * self._factor
+
+
+def is_same_grid(one: HeightBand, other: HeightBand) -> bool:
+    """Return whether two rasters have the same cells."""
+    size = abs(one.geotransform[1]) + abs(one.geotransform[2])
+    # Differences of the sides of cells add up over the raster.
+    scale = np.array([1.0, *[max(one.whole)] * 2] * 2)
+    off = np.abs(np.subtract(one.geotransform, other.geotransform)) * scale
+    return one.whole == other.whole and bool((off <= _SAME * size).all())
 
 
 def stored_of(cells: Windows) -> Stored:

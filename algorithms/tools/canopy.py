@@ -16,8 +16,9 @@ from ..crs.matching import other_datums
 from ..grids.canopy import PIT_PASSES, canopy_height, without_pits
 from ..rasters.content import NO_CELLS, Source
 from ..rasters.geotiff import NODATA, HeightBand, read_raster
-from ..rasters.sampling import HeightRaster, HeightSampler
+from ..rasters.sampling import HeightRaster
 from ..rasters.sparse import RasterPart
+from ..rasters.windows import SampledWindows, is_same_grid
 from ..rasters.writing import RasterCells, write_geotiff
 from .declaration import CANOPY, RASTER, FileTool, Input, Output
 from .rasters.parameters import SurfaceModel
@@ -25,8 +26,6 @@ from .rasters.rows import RASTERS
 
 # Cells that are worked on at a time.
 _CELLS = 4_000_000
-# Difference of two geotransforms, in cells, up to which the grids are the same.
-_SAME = 1e-3
 # A surface that lies this far below the terrain, in metres, in most cells is not a surface model.
 _BELOW = 1.0
 
@@ -71,28 +70,21 @@ class TwoHeights:
         of_terrain = read_raster(terrain, window=NO_CELLS, progress=progress)
         self._terrain_unit = of_terrain.frame.vertical_unit
         _refuse_other_crs(surface, of_terrain, terrain, progress)
-        self._terrain: HeightBand | HeightSampler = of_terrain
+        self._terrain: HeightBand | SampledWindows = of_terrain
         if not is_same_grid(surface, of_terrain):
             progress.info(
                 f"{terrain} is not on the grid of {surface.source}: its heights are interpolated"
                 " at the centres of these cells."
             )
-            self._terrain = HeightSampler(HeightRaster.of(terrain))
+            self._terrain = SampledWindows(terrain, surface, self._terrain_unit)
 
     def rows(self, *part: int) -> tuple[np.ndarray, np.ndarray]:
         """Return some rows and columns of the surface and of the terrain, as `Raster.rows`."""
         surface = self.surface.rows(*part).astype(np.float64) * self.unit
         if isinstance(self._terrain, HeightBand):
-            heights = self._terrain.rows(*part)
-        else:
-            rows, columns = surface.shape
-            column, row = np.meshgrid(
-                np.arange(columns) + max(part[2], 0) + 0.5, np.arange(rows) + max(part[0], 0) + 0.5
-            )
-            x, a, b, y, c, d = self.surface.geotransform
-            places = x + a * column + b * row, y + c * column + d * row
-            heights = self._terrain.heights(*map(np.ravel, places)).reshape(surface.shape)
-        return surface, heights.astype(np.float64) * self._terrain_unit
+            return surface, self._terrain.rows(*part).astype(np.float64) * self._terrain_unit
+        south, north, west, east = part
+        return surface, self._terrain[south:north, west:east]
 
     def cells(
         self, margin: int, work: Callable[[Block], np.ndarray], progress: Progress
@@ -167,15 +159,6 @@ class _Found:
                 f" {self.count:,} cells. Give the surface model first, and rasters whose heights"
                 " have one unit and one vertical datum."
             )
-
-
-def is_same_grid(one: HeightBand, other: HeightBand) -> bool:
-    """Return whether two rasters have the same cells."""
-    size = abs(one.geotransform[1]) + abs(one.geotransform[2])
-    # Differences of the sides of cells add up over the raster.
-    scale = np.array([1.0, *[max(one.whole)] * 2] * 2)
-    off = np.abs(np.subtract(one.geotransform, other.geotransform)) * scale
-    return one.whole == other.whole and bool((off <= _SAME * size).all())
 
 
 def _refuse_other_crs(

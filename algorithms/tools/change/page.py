@@ -63,6 +63,8 @@ def change_html(
 
 def _map(found: Found, units: Units) -> Iterator[Html]:
     """Yield the map of the change over the relief, with the places outlined."""
+    from scipy import ndimage
+
     pair = found.pair
     step = max(math.ceil(max(pair.grid.whole) / _LONGEST), 1)
     scale = _scale(found)
@@ -78,7 +80,7 @@ def _map(found: Found, units: Units) -> Iterator[Html]:
     pixels = np.where(shade > 0, colour * (0.35 + 0.65 * shade / 255.0), 255.0)
     for place in found.places:
         mask = place.mask
-        edge = mask & ~_inner(mask)
+        edge = mask & ~ndimage.binary_erosion(mask)
         row, column = np.nonzero(edge)
         at = (row + place.window[0].start) // step, (column + place.window[1].start) // step
         pixels[at] = rgb("#222222")
@@ -88,12 +90,6 @@ def _map(found: Found, units: Units) -> Iterator[Html]:
         picture, "New minus old, north is up", keys((_RAMP[0], _LEVEL, _RAMP[-1]), ends), units
     )
     yield paragraph("Places of significant change have a dark outline. White: no value in a date.")
-
-
-def _inner(mask: np.ndarray) -> np.ndarray:
-    """Return the cells of a mask whose four neighbours belong to it."""
-    wide = np.pad(mask, 1)
-    return wide[:-2, 1:-1] & wide[2:, 1:-1] & wide[1:-1, :-2] & wide[1:-1, 2:]
 
 
 def _scale(found: Found) -> float:

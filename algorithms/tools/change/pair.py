@@ -22,12 +22,10 @@ from ...grids.gradient import gradient, length
 from ...rasters.cell_grid import RasterTarget
 from ...rasters.content import NO_CELLS, MemoryRaster, Source
 from ...rasters.geotiff import HeightBand, read_raster
-from ...rasters.sampling import HeightRaster, HeightSampler
-from ...rasters.windows import RasterWindows, Window, Windows
+from ...rasters.windows import RasterWindows, SampledWindows, Window, Windows, is_same_grid
 from ...report.units import Units
 from ...survey.files import Inputs, is_cloud
 from ...survey.vpc import SUFFIX
-from ..canopy import is_same_grid
 from ..ground.method import TileMethod
 from ..ground.step import LabelGround
 from ..rasters.parameters import TerrainModel
@@ -106,14 +104,14 @@ class Pair(NamedTuple):
 
     def strip(self, window: Window) -> Strip:
         """Return the cells of a window, those that there are."""
-        old, new = self.old[window], self.new[window]
-        spread = np.full(old.shape, np.nan, dtype=np.float32)
-        if self.errors is not None:
-            spread = np.hypot(self.errors[0][window], self.errors[1][window])
-        distance = np.full(old.shape, np.nan, dtype=np.float32)
-        for of_date in self.distances:
-            if of_date is not None:
-                distance = np.fmax(distance, of_date[window])
+
+        def cells(of: Windows | None) -> np.ndarray:
+            return np.float32(np.nan) if of is None else of[window].astype(np.float32, copy=False)
+
+        old, new = cells(self.old), cells(self.new)
+        unknown = np.full(old.shape, np.nan, dtype=np.float32)
+        spread = unknown if self.errors is None else np.hypot(*map(cells, self.errors))
+        distance = np.fmax(unknown, np.fmax(*map(cells, self.distances)))
         row, column = (max(part.start, 0) for part in window)
         return Strip(row, column, slice(0, len(old)), old, new, spread, distance)
 
@@ -159,44 +157,11 @@ def given(terrain: Source, error: Source | None, crs: str | None, progress: Prog
     return Given(terrain, error, cloud.holding(cloud.open(progress)))
 
 
-class _Sampled:
-    """Heights of a raster at the cells of another grid, in metres, moved by units of the CRS."""
-
-    def __init__(
-        self,
-        source: Source,
-        grid: HeightBand,
-        factor: float,
-        move: tuple[float, float] = (0.0, 0.0),
-    ) -> None:
-        self.shape, self._grid, self._factor = grid.whole, grid, factor
-        self.source, self._move = source, move
-        self._heights = HeightSampler(HeightRaster.of(source))
-
-    def moved(self, move: tuple[float, float]) -> _Sampled:
-        """Return the same heights, moved on."""
-        east, north = self._move[0] + move[0], self._move[1] + move[1]
-        return _Sampled(self.source, self._grid, self._factor, (east, north))
-
-    def __getitem__(self, window: Window) -> np.ndarray:
-        """Return the cells of a window, those that there are."""
-        rows, columns = (
-            np.arange(max(part.start, 0), min(part.stop, count))
-            for part, count in zip(window, self.shape)
-        )
-        column, row = np.meshgrid(columns + 0.5, rows + 0.5)
-        x, a, b, y, c, d = self._grid.geotransform
-        east, north = self._move
-        places = x + a * column + b * row - east, y + c * column + d * row - north
-        heights = self._heights.heights(*map(np.ravel, places)).reshape(column.shape)
-        return (heights * self._factor).astype(np.float32)
-
-
 def _moved(windows: Windows, grid: HeightBand, move: tuple[float, float]) -> Windows:
-    if isinstance(windows, _Sampled):
+    if isinstance(windows, SampledWindows):
         return windows.moved(move)
     of = windows.raster  # type: ignore[attr-defined]
-    return _Sampled(of.source, grid, of.frame.vertical_unit, move)
+    return SampledWindows(of.source, grid, of.frame.vertical_unit, move)
 
 
 def pair_of(
@@ -301,7 +266,7 @@ def _windows(source: Source, raster: HeightBand, grid: HeightBand) -> Windows:
     unit = raster.frame.vertical_unit
     if is_same_grid(raster, grid):
         return RasterWindows(raster, unit)
-    return _Sampled(source, grid, unit)
+    return SampledWindows(source, grid, unit)
 
 
 def _refuse_other_crs(systems: tuple[Crs, Crs], names: list[str], heights: bool = True) -> None:
