@@ -105,13 +105,15 @@ class Pair(NamedTuple):
     def strip(self, window: Window) -> Strip:
         """Return the cells of a window, those that there are."""
 
-        def cells(of: Windows | None) -> np.ndarray:
-            return np.float32(np.nan) if of is None else of[window].astype(np.float32, copy=False)
+        def cells(of: Windows) -> np.ndarray:
+            return of[window].astype(np.float32, copy=False)
 
         old, new = cells(self.old), cells(self.new)
         unknown = np.full(old.shape, np.nan, dtype=np.float32)
         spread = unknown if self.errors is None else np.hypot(*map(cells, self.errors))
-        distance = np.fmax(unknown, np.fmax(*map(cells, self.distances)))
+        distance = unknown
+        for of_date in self.distances:
+            distance = distance if of_date is None else np.fmax(distance, cells(of_date))
         row, column = (max(part.start, 0) for part in window)
         return Strip(row, column, slice(0, len(old)), old, new, spread, distance)
 
@@ -240,29 +242,30 @@ def _on_one_grid(
     width, height = grid.cell_metres
     if not math.isclose(width, height, rel_tol=1e-3):
         raise BareEarthError(f"{grid.source} has cells that are no squares. Resample it.")
-    old, new = (_windows(date.terrain, raster, grid) for date, raster in zip(dates, rasters))
-    distances = [
-        date.distance and _windows(date.distance, read_raster(date.distance, window=NO_CELLS), grid)
-        for date in dates
-    ]
-    errors: list[Windows] = []
+    old, new = (_windows(date.terrain, grid) for date in dates)
     for date, raster in zip(dates, rasters):
         if date.error is not None:
             of_error = read_raster(date.error, window=NO_CELLS)
             _refuse_other_crs((raster.crs, of_error.crs), [names[0], str(date.error)], False)
-            errors.append(_windows(date.error, of_error, grid))
-    if len(errors) == 2:
-        return Pair(grid, old, new, (errors[0], errors[1]), (distances[0], distances[1]))
-    missing = "Only one date has an expected error" if errors else "There are no expected errors"
-    progress.warning(
-        f"{missing}: limits follow from stable land alone, and are too small in gaps and under"
-        " plants. Give the expected errors of both."
+    errors = [_windows(date.error, grid) for date in dates if date.error is not None]
+    old_distance, new_distance = (
+        None if date.distance is None else _windows(date.distance, grid) for date in dates
     )
-    return Pair(grid, old, new, None, (distances[0], distances[1]))
+    if len(errors) < 2:
+        missing = (
+            "Only one date has an expected error" if errors else "There are no expected errors"
+        )
+        progress.warning(
+            f"{missing}: limits follow from stable land alone, and are too small in gaps and under"
+            " plants. Give the expected errors of both."
+        )
+    both = (errors[0], errors[1]) if len(errors) == 2 else None
+    return Pair(grid, old, new, both, (old_distance, new_distance))
 
 
-def _windows(source: Source, raster: HeightBand, grid: HeightBand) -> Windows:
+def _windows(source: Source, grid: HeightBand) -> Windows:
     """Return the cells of a raster on a grid, in metres."""
+    raster = read_raster(source, window=NO_CELLS)
     unit = raster.frame.vertical_unit
     if is_same_grid(raster, grid):
         return RasterWindows(raster, unit)

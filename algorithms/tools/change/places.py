@@ -20,10 +20,10 @@ from .stable import LIMIT, Alignment, Scatter
 # their limits: so its volume is not cut off at the limit.
 _RIM = 3
 _PART = 0.3
-# Standard errors by which the mean of a place must differ from none: where half of its cells have
-# ground points of both dates near them, where they don't or nobody knows, and without expected
-# errors, where more is unforeseen. Some of many thousand areas differ by chance.
-_CERTAIN, _CERTAIN_IN_GAPS, _CERTAIN_OF_SLOPES = 3.8, 5.0, 6.0
+# Standard errors by which the mean of a place must differ from none, as some of many thousand areas
+# differ by chance: if half of its cells have ground points of both dates near them, if not, where
+# nobody knows, and without expected errors, where more is unforeseen.
+_SEEN, _IN_GAPS, _UNKNOWN, _OF_SLOPES = 3.8, 5.0, 4.0, 6.0
 # The edge of a place can lie anywhere between ground points: by this share of their distance.
 _OFF = 0.5
 _NEIGHBOURS = ((0, 1), (1, -1), (1, 0), (1, 1))
@@ -177,9 +177,7 @@ def _joined(
         core = float(np.count_nonzero(place.is_over)) * pair.cell**2
         share = scatter.share_of_mean(np.array([core, place.area]))
         mean = float(np.mean((np.abs(place.change) / place.limit)[place.is_over])) * LIMIT
-        is_seen = 2 * np.count_nonzero(distance[is_over] <= SEEN) >= np.count_nonzero(is_over)
-        certain = _CERTAIN if is_seen else _CERTAIN_IN_GAPS
-        if mean < (certain if scatter.by_error else _CERTAIN_OF_SLOPES) * share[0]:
+        if mean < _certain(scatter, distance[is_over]) * share[0]:
             continue
         by_chance, at_edges = (
             float(np.sum(errors, dtype=np.float64)) * pair.cell**2 for errors in (limit, off)
@@ -187,6 +185,14 @@ def _joined(
         errors = by_chance * share[1], at_edges, alignment.limit * place.area
         places.append(place._replace(volume_error=math.hypot(*errors)))
     return places
+
+
+def _certain(scatter: Scatter, distance: np.ndarray) -> float:
+    """Return by how many standard errors a place must differ, given the distances of its cells."""
+    if not scatter.by_error:
+        return _OF_SLOPES
+    middle = float(np.quantile(distance, 0.5))
+    return _UNKNOWN if math.isnan(middle) else _SEEN if middle <= SEEN else _IN_GAPS
 
 
 def connected(cells: np.ndarray, columns: int) -> list[np.ndarray]:

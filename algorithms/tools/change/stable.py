@@ -51,13 +51,13 @@ _LEVEL = 0.05  # rise over run from which slopes tell of a horizontal shift
 class Sample(NamedTuple):
     """Cells that were drawn of the common ones; all (n,), metres, slopes as rise over run."""
 
+    common: int  # number of all common cells
     east: np.ndarray  # from the middle of the grid
     north: np.ndarray
     change: np.ndarray  # new minus old
     slopes: np.ndarray  # (n, 2), of the old terrain towards east and north
     spread: np.ndarray  # by the expected errors; NaN without them
     is_seen: np.ndarray  # whether ground points of both dates lie near
-    common: int = 0  # number of all common cells
 
     @property
     def slope(self) -> np.ndarray:
@@ -173,7 +173,7 @@ def sample_of(pair: Pair, names: tuple[str, str], progress: Progress) -> Sample:
             f"No cell has a value in both {names[0]} and {names[1]}. Give two surveys of the same"
             " place, neither of which is empty."
         )
-    sample = Sample(*map(np.concatenate, zip(*found)), common)
+    sample = Sample(common, *map(np.concatenate, zip(*found)))
     if len(sample.change) < _LEAST:
         raise BareEarthError(
             f"{names[0]} and {names[1]} have only {common:,} cells in common: too few to tell a"
@@ -188,10 +188,11 @@ def aligned(sample: Sample, kind: str, names: tuple[str, str]) -> Alignment:
     """Return how the new terrain lies above the old one on stable land: nothing of it (`kind` is
     "none"), its vertical shift, or shift and tilt; refuse too little stable land.
     """
+    common, *columns = sample
     level = sample.slope <= _STEEP
     if np.count_nonzero(level) < max(len(level) * LEAST_SHARE, _LEAST):
         level[:] = True
-    some = Sample(*(column[level] for column in sample[:6]))
+    some = Sample(common, *(column[level] for column in columns))
     shift, tilt, weights = _plane(some, kind == "tilt")
     error, errors = _certainty(some, shift, tilt, weights)
     if kind == "tilt" and (np.abs(tilt) < _CERTAIN * errors).all():

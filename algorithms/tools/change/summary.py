@@ -129,8 +129,7 @@ def summary_of(found: Found, left_out: int) -> ChangeSummary:
         nmad=round(found.scatter.nmad, 4),
         median_limit=round(float(np.nanmedian(limits)), 3),
         can_tell={
-            metres: round(float(np.mean((limits <= metres) & sample.is_seen)), 4)
-            for metres in TOLD
+            metres: round(float(np.mean((limits <= metres) & sample.is_seen)), 4) for metres in TOLD
         },
         unseen=round(float(np.mean(~sample.is_seen)), 4),
         by_error=found.scatter.by_error,
