@@ -224,7 +224,7 @@ TOOL = FileTool(
             "limit",
             "raster",
             help="The detection limit of each cell: 95 of 100 differences of unchanged cells are"
-            " smaller.",
+            " smaller. Empty where a point cloud has no ground within 2 m.",
             label="Detection limit",
             look="detection limit",
         ),
