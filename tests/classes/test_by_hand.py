@@ -153,7 +153,7 @@ def test_a_later_polygon_counts_and_noise_and_first_returns_stay(tmp_path):
     assert set(classes[12 : 11 * 30]) == {2} and set(classes[11 * 30 : 21 * 30]) == {64}
     las = laspy.convert(laspy.read(path), point_format_id=1, file_version="1.2")
     las.write(str(tmp_path / "old.las"))
-    with pytest.raises(BareEarthError, match="holds classes up to 31, not 64"):
+    with pytest.raises(BareEarthError, match="31, not 64"):
         classify(tmp_path / "old.las", out, corrections=known, **_size(GONE))
 
 
@@ -173,15 +173,15 @@ def test_the_command_line_takes_polygons_of_a_file(cloud, corrections, tmp_path,
     assert set(_classes(out, HALL)) == {6} and set(_classes(out, MOUND)) == {2}
     far = _geojson(tmp_path / "far.geojson", ((900.0, 0.0, 910.0, 10.0), {"class": 2}))
     assert main(["classify", str(cloud), str(out), "--corrections", str(far), *words]) == 1
-    assert "lies in the polygons of the corrections" in capsys.readouterr().err
+    assert "polygons of the corrections" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("properties", [{"class": "ground"}, {"class": 256}, {"class": 2.5}])
 def test_polygons_without_a_proper_class_are_refused(properties, cloud, tmp_path):
     out, path = tmp_path / "out.laz", _geojson(tmp_path / "known.geojson", (HALL, properties))
-    with pytest.raises(BareEarthError, match="must be a whole number from 0 to 255"):
+    with pytest.raises(BareEarthError, match="from 0 to 255"):
         classify(cloud, out, corrections=path)
-    with pytest.raises(BareEarthError, match="Save it as GeoPackage or GeoJSON"):
+    with pytest.raises(BareEarthError, match="GeoPackage or GeoJSON"):
         classify(cloud, out, corrections=tmp_path / "known.wkt")
 
 
@@ -300,5 +300,5 @@ def test_a_dimension_of_that_name_that_is_no_byte_is_refused(cloud, tmp_path):
     las.add_extra_dim(laspy.ExtraBytesParams("BareEarthClass", "f4"))
     las.write(str(tmp_path / "in.laz"))
     classify(tmp_path / "in.laz", tmp_path / "out.laz", **_size(GONE))
-    with pytest.raises(BareEarthError, match="BareEarthClass that is no byte"):
+    with pytest.raises(BareEarthError, match="BareEarthClass"):
         classify(tmp_path / "in.laz", tmp_path / "out.laz", remember_classes=True, **_size(GONE))

@@ -1,5 +1,6 @@
 import json
 import os
+import re
 import subprocess
 import sys
 
@@ -94,7 +95,7 @@ def test_verbose_tells_what_is_done(file, out, capsys):
     assert run("classify", file, out, "--verbose") == 0
     told = capsys.readouterr()
     assert "points take part." in told.err and "points are ground" in told.out
-    assert "Seconds by stage: lowest points" in told.err
+    assert "stage: lowest points" in told.err
 
 
 @pytest.mark.rest
@@ -140,10 +141,10 @@ def test_what_fails_is_1_and_one_line(words, text, file, tmp_path, capsys, monke
         (["classify", "in.las"], "OUTPUT"),
         (["classify", "in.las", "out.las", "--method", "magic"], "invalid choice: 'magic'"),
         (["classify", "in.las", "out.las", "--no-such-option"], "--no-such-option"),
-        (["classify", "in.las", "out.las", "--to-class", "300"], "must be at most 255, not 300."),
+        (["classify", "in.las", "out.las", "--to-class", "300"], "at most 255, not 300"),
         (["classify", "in.las", "out.las", "--to-class", "2.5"], "must be a whole number"),
         (["classify", "in.las", "out.las", "--max-building-size", "x"], "must be a number"),
-        (["classify", "in.las", "out.las", "--from-classes", "x"], "must be a number, not 'x'."),
+        (["classify", "in.las", "out.las", "--from-classes", "x"], "number, not 'x'"),
         (["classify", "in.las", "out.las", "--returns", "first"], "invalid choice: 'first'"),
         (["classify", "in.las", "out.las", "--extent", "1", "2", "3"], "expected 4 arguments"),
         (["classify", "in.las", "out.las", "--extent", "9", "0", "1", "5"], "XMIN below XMAX"),
@@ -169,16 +170,17 @@ def failing(monkeypatch, error):
     ("error", "text"),
     [
         (BareEarthError("The disk is full."), "The disk is full."),
-        (MemoryError(), "There is not enough memory for this file."),
-        (Cancelled(), "Cancelled; nothing was written."),
-        (KeyboardInterrupt(), "Cancelled; nothing was written."),
-        (KeyError("x"), "Unexpected KeyError: 'x'. Run with --verbose and report it."),
+        (MemoryError(), "memory"),
+        (Cancelled(), "nothing was written"),
+        (KeyboardInterrupt(), "nothing was written"),
+        (KeyError("x"), "KeyError: 'x'.* --verbose"),
     ],
 )
 def test_any_error_is_1_and_one_line(error, text, file, out, capsys, monkeypatch):
     failing(monkeypatch, error)
     assert run("classify", file, out) == 1
-    assert capsys.readouterr().err == f"bare-earth: {text}\n"
+    (line,) = capsys.readouterr().err.splitlines()
+    assert re.search(f"^bare-earth: .*{text}", line)
 
 
 @pytest.mark.parametrize("error", [BareEarthError("The disk is full."), KeyError("x")])

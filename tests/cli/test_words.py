@@ -1,5 +1,7 @@
 """Messages name options and tools in the words of who reads them."""
 
+import re
+
 import pytest
 
 import bare_earth
@@ -15,12 +17,12 @@ def test_options_are_flags_in_a_terminal_and_keywords_in_the_library(tmp_path, c
     path.write_text("1,2,3\n")
     words = ["check", str(path)]
     assert main(words) == 2
-    assert "Give --checkpoints, or a share of points with --hold-out." in capsys.readouterr().err
-    with pytest.raises(bare_earth.BareEarthError, match=r"Give 'checkpoints'.* with 'hold_out'"):
+    assert re.search("--checkpoints.* --hold-out", capsys.readouterr().err)
+    with pytest.raises(bare_earth.BareEarthError, match="'checkpoints'.* 'hold_out'"):
         bare_earth.check(path)
 
 
 def test_digits_that_matter_are_shown(capsys, tmp_path):
     words = ["terrain", str(tmp_path / "a.laz"), "--dtm", str(tmp_path / "a.tif"), "--extent"]
     assert main([*words, "6861000.25", "1", "6861000.25", "2"])
-    assert "not 6861000.25 1 6861000.25 2." in capsys.readouterr().err
+    assert "6861000.25 1 6861000.25 2" in capsys.readouterr().err

@@ -47,7 +47,7 @@ def test_a_folder(tmp_path):
 def test_what_is_not_las(tmp_path, content):
     path = tmp_path / "in.las"
     path.write_bytes(content)
-    refused(path, "is not a LAS or LAZ file")
+    refused(path, "not a LAS or LAZ")
 
 
 @pytest.mark.parametrize("name", ["in.las", "in.laz"])
@@ -59,7 +59,7 @@ def test_a_file_that_is_cut_off(las, name, part):
     )
     path = las.folder / name
     path.write_bytes(data[: int(len(data) * part)] if isinstance(part, float) else data[:part])
-    refused(path, "damaged or cut off", 3000)
+    refused(path, "cut off", 3000)
 
 
 @pytest.mark.parametrize("target", [None, "out.laz", "out.copc.laz"])
@@ -68,7 +68,7 @@ def test_a_laz_file_with_fewer_points_than_its_header_says(las, target):
     data = bytearray(path.read_bytes())
     struct.pack_into("<I", data, 107, 90)
     path.write_bytes(data)
-    with pytest.raises(BareEarthError, match="damaged or cut off"):
+    with pytest.raises(BareEarthError, match="cut off"):
         if target is None:
             read_cloud(path)
         else:
@@ -168,7 +168,7 @@ KEYS = struct.pack("<12H", 1, 1, 0, 2, 1024, 0, 1, 2, 2048, 0, 1, 4326)
 def test_degrees_cannot_be_measured_in(las, number, data, encoding):
     source = las.make(encoding=encoding, vlrs=[las.vlr(b"LASF_Projection", number, data)])
     cloud = read_cloud(source)
-    with pytest.raises(BareEarthError, match=r"not in a projected CRS.*Reproject") as caught:
+    with pytest.raises(BareEarthError, match="projected CRS") as caught:
         cloud.points(np.ones(60, bool))
     assert "\n" not in str(caught.value) and str(source) in str(caught.value)
 
@@ -190,7 +190,7 @@ def test_missing_packages_are_told_with_the_command_that_installs_them(las, monk
         lambda: check_writable(las.folder / "out.copc.laz"),
         lambda: write_classified(packed, las.folder / "out.las", np.zeros(60, np.uint8)),
     ):
-        with pytest.raises(BareEarthError, match=r"needs lazrs, which .* pip install lazrs"):
+        with pytest.raises(BareEarthError, match="pip install lazrs"):
             action()
     assert read_cloud(plain).count == 60
     check_writable(las.folder / "out.las")
@@ -199,14 +199,14 @@ def test_missing_packages_are_told_with_the_command_that_installs_them(las, monk
 
 def test_all_missing_packages_are_told_at_once(monkeypatch):
     without(monkeypatch, "lazrs", "laspy")
-    with pytest.raises(BareEarthError, match=r"^Reading point clouds needs laspy and lazrs"):
+    with pytest.raises(BareEarthError, match="laspy and lazrs"):
         require("laspy", "lazrs")
 
 
 def test_inside_qgis_the_menu_is_named_for_lazrs(las, monkeypatch):
     monkeypatch.setitem(sys.modules, "qgis.core", object())
     without(monkeypatch, "lazrs")
-    with pytest.raises(BareEarthError, match="Plugins > Bare Earth > LAZ support") as caught:
+    with pytest.raises(BareEarthError, match="LAZ support") as caught:
         read_cloud(las.make("in.laz"))
     assert "pip" not in str(caught.value)
 
@@ -214,8 +214,8 @@ def test_inside_qgis_the_menu_is_named_for_lazrs(las, monkeypatch):
 @pytest.mark.parametrize(
     ("platform", "flatpak", "words"),
     [
-        ("win32", False, "'osgeo4w-setup -q -k -P python3-numpy,python3-scipy'"),
-        ("darwin", False, "python -m pip install --user --no-deps numpy scipy'"),
+        ("win32", False, "osgeo4w-setup -q -k -P python3-numpy,python3-scipy"),
+        ("darwin", False, "pip install --user --no-deps numpy scipy"),
         ("linux", False, "install python3-numpy python3-scipy'"),
         ("linux", True, "--command=pip3 org.qgis.qgis install numpy scipy --user'"),
     ],

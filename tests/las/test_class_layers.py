@@ -173,5 +173,5 @@ def test_a_cut_off_file_is_told_and_leaves_nothing(las):
     data = source.read_bytes()
     source.write_bytes(data[: len(data) // 2])
     cloud_free = layers.write(io.BytesIO(), classes_of(COUNT))
-    with pytest.raises(BareEarthError, match="is damaged or cut off"):
+    with pytest.raises(BareEarthError, match="cut off"):
         list(cloud_free)

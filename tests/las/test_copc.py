@@ -1,4 +1,5 @@
 import functools
+import re
 import struct
 import tracemalloc
 
@@ -354,7 +355,7 @@ def test_a_disk_without_room_for_the_points_that_wait_is_told(
     become_full(monkeypatch, 300_000, tells)
     source = las.make(version=4, point_format=6, records=cloud_of(20_000))
     changes = Edits(classification=classes_of(20_000))
-    with pytest.raises(BareEarthError, match=r"^Cannot write .*out\.copc\.laz: the disk is full\."):
+    with pytest.raises(BareEarthError, match=r"out\.copc\.laz: .*disk.* full"):
         write_changed(source, las.folder / "out.copc.laz", changes, memory=1)
     assert list(las.folder.iterdir()) == [source]
 
@@ -454,5 +455,5 @@ def test_waveforms_that_are_left_out_are_told(las, point_format):
 def test_a_changed_format_and_lost_header_bytes_are_told(las):
     source, progress = las.make(point_format=3, user_bytes=b"our own"), Heard()
     write_classified(source, las.folder / "out.copc.laz", classes_of(60), progress)
-    assert "Point format 3 becomes 7, as COPC needs it." in progress.infos
+    assert any(re.search(r"format 3 .*\b7\b.* COPC", text) for text in progress.infos)
     assert any("added to the header" in text for text in progress.warnings)

@@ -63,7 +63,7 @@ def test_compression_is_that_of_the_name(tiles, tmp_path, name, target):
 @pytest.mark.parametrize("command", ["classify", "height"])
 def test_many_files_some_without_points(tiles, command, tmp_path, capsys):
     assert main([command, str(tiles), str(tmp_path / "out")]) == 0
-    assert "b.laz, c.las hold no points" in capsys.readouterr().err
+    assert "b.laz, c.las hold no" in capsys.readouterr().err
     for name in ("b.laz", "c.las"):
         assert (tmp_path / "out" / name).read_bytes() == (tiles / name).read_bytes()
     assert laspy.read(tmp_path / "out" / "a.laz").header.point_count == 1000
@@ -81,9 +81,9 @@ def test_tools_that_read_many_files_leave_out_those_without_points(tiles, tmp_pa
     bare_earth.terrain(tiles, dtm=all_of_them)
     assert one.read_bytes() == all_of_them.read_bytes()
     assert bare_earth.quality(tiles).points == 1000
-    with pytest.raises(BareEarthError, match="holds no points"):
+    with pytest.raises(BareEarthError, match="no points"):
         bare_earth.terrain(tiles / "b.laz", dtm=tmp_path / "none.tif")
-    with pytest.raises(BareEarthError, match="None of the files holds a point"):
+    with pytest.raises(BareEarthError, match="None of the files"):
         bare_earth.quality([tiles / "b.laz", tiles / "c.las"])
 
 
@@ -101,6 +101,6 @@ def test_a_file_that_was_not_written_to_its_end_is_refused(tiles, tmp_path):
         data = bytearray(path.read_bytes())
         data[247:255], data[107:111] = bytes(8), bytes(4)  # numbers of points in the header
         path.write_bytes(data)
-        with pytest.raises(BareEarthError, match="was not written to its end"):
+        with pytest.raises(BareEarthError, match="not written to its end"):
             bare_earth.classify(path, tmp_path / "out.laz")
     assert layout.count and isinstance(pickle.loads(pickle.dumps(NoPoints("none"))), NoPoints)

@@ -142,10 +142,10 @@ def test_a_record_behind_the_points_moves_before_them(las, written):
 @pytest.mark.parametrize(
     "descriptors, text",
     [
-        ([(b"too long", 10, 0)], "more extra bytes than its points have"),
-        ([(b"unknown", 99, 0)], "more extra bytes than its points have"),
-        ([(b"HeightAboveGround", 3, 0)], "neither float nor double"),
-        ([(b"HeightAboveGround", 9, 0x08)], "neither float nor double"),
+        ([(b"too long", 10, 0)], "more extra bytes"),
+        ([(b"unknown", 99, 0)], "more extra bytes"),
+        ([(b"HeightAboveGround", 3, 0)], "HeightAboveGround.* float"),
+        ([(b"HeightAboveGround", 9, 0x08)], "HeightAboveGround.* float"),
     ],
 )
 def test_what_cannot_be_followed_is_refused(las, descriptors, text):

@@ -138,7 +138,7 @@ def test_what_windows_still_holds_goes_at_the_next_start(support, tmp_path, monk
             "rmtree",
             lambda path, *rest, **words: path == support.folder or delete(path, *rest, **words),
         )
-        with pytest.raises(BareEarthError, match="restart QGIS and try again"):
+        with pytest.raises(BareEarthError, match="restart QGIS"):
             support.get_from_wheel(tmp_path / "a.whl")
     LazSupport(tmp_path / "profile").use()
     assert not support.is_there and not left(support)
@@ -169,7 +169,7 @@ def test_a_plugin_that_is_installed_again_uses_nothing_that_windows_still_holds(
         with monkeypatch.context() as added:
             added.syspath_prepend(support.folder)
             assert importlib.util.find_spec(PACKAGE) and not again.is_there
-        with pytest.raises(BareEarthError, match="restart QGIS and try again"):
+        with pytest.raises(BareEarthError, match="restart QGIS"):
             again.get_from_wheel(wheel)
     LazSupport(tmp_path / "profile").use()
     again.get_from_wheel(wheel)
@@ -179,8 +179,8 @@ def test_a_plugin_that_is_installed_again_uses_nothing_that_windows_still_holds(
 @pytest.mark.parametrize(
     ("words", "changed"),
     [
-        ("holds other; a wheel of tinylaz is needed", {"name": "other"}),
-        ("for another Python or system", {"tag": "cp27-cp27m-win_amd64"}),
+        ("other; .* tinylaz", {"name": "other"}),
+        ("another Python", {"tag": "cp27-cp27m-win_amd64"}),
         ("differs from its list", {"record": False}),
         ("does not belong", {"files": {"../evil.py": ""}}),
         ("does not belong", {"files": {"tinylaz/../../evil.py": ""}}),
@@ -233,7 +233,7 @@ def test_bytes_that_are_changed_anywhere_are_told(tmp_path, compression):
 
 def test_a_package_that_cannot_be_loaded_is_taken_away_again(support, tmp_path):
     wheel = make_wheel(tmp_path / "a.whl", {f"{PACKAGE}/__init__.py": "raise ImportError('DLL')"})
-    with pytest.raises(BareEarthError, match="cannot load the installed lazrs: DLL"):
+    with pytest.raises(BareEarthError, match="lazrs: DLL"):
         support.get_from_wheel(wheel)
     assert not support.is_there and not left(support)
 
@@ -292,7 +292,7 @@ def test_pip_is_brought_along_where_there_is_none(support, index, tmp_path, monk
 @pytest.mark.long
 def test_no_wheel_for_this_python_is_told(support, index):
     make_wheel(index / f"{PACKAGE}-1.0-cp27-cp27m-win_amd64.whl", tag="cp27-cp27m-win_amd64")
-    with pytest.raises(BareEarthError, match=r"the package index has none for cp3\d+ and \w+"):
+    with pytest.raises(BareEarthError, match=r"index .* none .* cp3\d+ and \w+"):
         support.get_by_pip(run)
     assert not support.is_there and not left(support)
 
@@ -304,13 +304,13 @@ def test_no_wheel_for_this_python_is_told(support, index):
         (
             "WARNING: Retrying (Retry(total=0)) after connection broken by 'NewConnectionError'\n"
             "ERROR: No matching distribution found for lazrs",
-            "the package index was not reached: check the connection",
+            "not reached",
         ),
         ("ProxyError('Cannot connect to proxy.', OSError('Tunnel connection failed: 407 Proxy"
-         " Authentication Required'))", "the proxy wants a name and password"),
-        ("SSLError(CERTIFICATE_VERIFY_FAILED)\nRetrying (", "the certificate of the package index"),
+         " Authentication Required'))", "password"),
+        ("SSLError(CERTIFICATE_VERIFY_FAILED)\nRetrying (", "certificate"),
         ("ERROR: Missing dependencies for SOCKS support.", "SOCKS proxy"),
-        ("OSError: [Errno 28] No space left on device", "the disk is full."),
+        ("OSError: [Errno 28] No space left on device", "disk is full"),
         ("one\nERROR: Something else.\n", "ERROR: Something else."),
         ("", "pip gave no reason."),
     ],
@@ -319,7 +319,7 @@ def test_why_pip_failed_is_told_in_a_sentence(support, said, told):
     def failing(command, settings):
         return pip.Finished(1, said) if "install" in command else answer_of(tuple(command))
 
-    with pytest.raises(BareEarthError, match="lazrs could not be installed: ") as caught:
+    with pytest.raises(BareEarthError, match="lazrs could not be installed") as caught:
         support.get_by_pip(failing)
     assert told in str(caught.value) and "\n" not in str(caught.value)
     assert not left(support)
@@ -380,7 +380,7 @@ def test_a_python_of_another_kind_is_not_taken(monkeypatch):
         asked.append(command)
         return pip.Finished(0, "2 7 linux-x86_64 x86_64")
 
-    with pytest.raises(BareEarthError, match="No Python interpreter was found beside this QGIS"):
+    with pytest.raises(BareEarthError, match="Python interpreter"):
         pip.find_python(other)
     assert asked
 

@@ -209,9 +209,7 @@ def test_several_chunks_are_joined_in_order(las, monkeypatch):
 def test_a_class_above_31_is_refused_where_the_format_has_no_room(las, point_format):
     source = las.make(version=3, point_format=point_format)
     target = las.folder / "out.las"
-    with pytest.raises(
-        BareEarthError, match=rf"^Point format {point_format} holds classes up to 31"
-    ):
+    with pytest.raises(BareEarthError, match=rf"format {point_format} .* 31\b"):
         write_classified(source, target, np.full(60, 32, np.uint8))
     assert list(las.folder.iterdir()) == [source]
 
@@ -221,7 +219,7 @@ def test_waveforms_of_several_channels_are_not_garbled_but_refused_as_laz(las, p
     records = las.records(point_format)
     records[::2, 15] |= 0x10
     source = las.make(version=4, point_format=point_format, records=records)
-    with pytest.raises(BareEarthError, match=r"several scanner channels.* Name the output \.las\."):
+    with pytest.raises(BareEarthError, match=r"scanner channels.* \.las\b"):
         write_classified(source, las.folder / "out.laz", new_classes(60))
     assert list(las.folder.iterdir()) == [source]
     write_classified(source, las.folder / "out.las", new_classes(60))
@@ -278,14 +276,14 @@ def test_a_full_disk_is_told_and_leaves_nothing(las, monkeypatch, name, room):
     source = las.make(count=400)
     for module in ("writing", "copc"):
         monkeypatch.setattr(f"bare_earth.algorithms.las.{module}.open", opened, raising=False)
-    with pytest.raises(BareEarthError, match=r"^Cannot write .*out\.\S+: the disk is full\."):
+    with pytest.raises(BareEarthError, match=r"out\.\S+: .*disk.* full"):
         write_classified(source, las.folder / name, new_classes(400))
     assert list(las.folder.iterdir()) == [source]
 
 
 @pytest.mark.parametrize("name", ["out.txt", "out", "out.las.zip", "las"])
 def test_another_suffix_is_refused(tmp_path, name):
-    with pytest.raises(BareEarthError, match=r"name it \.las, \.laz or \.copc\.laz"):
+    with pytest.raises(BareEarthError, match=r"\.las, \.laz or \.copc\.laz"):
         check_writable(tmp_path / name)
 
 
