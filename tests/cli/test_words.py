@@ -18,7 +18,7 @@ def test_options_are_flags_in_a_terminal_and_keywords_in_the_library(tmp_path, c
     words = ["check", str(path)]
     assert main(words) == 2
     assert re.search("--checkpoints.* --hold-out", capsys.readouterr().err)
-    with pytest.raises(bare_earth.BareEarthError, match="'checkpoints'.* 'hold_out'"):
+    with pytest.raises(bare_earth.BareEarthError, match=r"'checkpoints'.* 'hold_out'"):
         bare_earth.check(path)
 
 

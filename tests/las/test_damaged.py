@@ -192,7 +192,7 @@ def test_parts_of_a_point_of_another_type_than_their_length(make):
 def test_scales_and_offsets_with_which_nothing_can_be_calculated(las, place, value):
     path = damage(las.make(), "d", (place, value))
     for action in (info, read_cloud):
-        with pytest.raises(BareEarthError, match="header .* damaged"):
+        with pytest.raises(BareEarthError, match=r"header .* damaged"):
             action(path)
 
 
