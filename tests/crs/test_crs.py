@@ -1,3 +1,4 @@
+import re
 import struct
 
 import pytest
@@ -189,7 +190,7 @@ def test_a_stated_unit_that_contradicts_the_code_is_used_and_told(las):
     pytest.importorskip("pyproj")
     crs, progress = crs_of(las, *geotiff(las, model=1, projected=32632, unit=9002))
     assert crs.horizontal_unit == FOOT
-    assert any("has the unit metre, but the file states foot" in text for text in progress.warnings)
+    assert any(re.search("unit metre.* foot", text) for text in progress.warnings)
 
 
 def test_an_unknown_unit_is_taken_as_metres_and_told(las):
@@ -203,8 +204,8 @@ def test_no_crs_is_taken_as_metres_and_told(las):
     crs, progress = crs_of(las)
     assert crs == Crs()
     (warning,) = progress.warnings
-    assert warning.startswith("in.las does not say its CRS: its coordinates are taken as metres.")
-    assert "with 'crs', such as EPSG:25832" in warning
+    assert warning.startswith("in.las does not say its CRS") and "metres" in warning
+    assert "'crs', such as EPSG:25832" in warning
 
 
 @pytest.mark.parametrize(("encoding", "unit"), [(0x00, FOOT), (0x10, SURVEY)])
@@ -272,15 +273,15 @@ def test_two_texts_add_to_each_other_and_contradictions_are_told(las):
         crs = read_crs(open_las(source), progress)
         assert crs.horizontal_unit == 1.0
         assert crs.vertical_unit == pytest.approx(SURVEY if behind == COMPOUND_1 else 1.0)
-        told = [text for text in progress.warnings if "by the other well-known text" in text]
+        told = [text for text in progress.warnings if "other well-known text" in text]
         assert len(told) == contradicts
 
 
 @pytest.mark.parametrize(
     ("values", "told"),
     [
-        ({"unit": 9002}, "c + NAVD88 in metre, height US survey foot by the well-known text"),
-        ({"unit": 9001, "vertical_unit": 9001}, "without a name in metre, height metre by the"),
+        ({"unit": 9002}, "c + NAVD88 in metre, height US survey foot"),
+        ({"unit": 9001, "vertical_unit": 9001}, "in metre, height metre"),
         ({"unit": 9001, "vertical": 5102}, "datum EPSG:5102 in metre"),
         ({"unit": 9001, "vertical": 5103}, None),
         ({"unit": 9001, "vertical_unit": 9003}, None),
@@ -337,7 +338,7 @@ def test_heights_without_a_unit_take_that_of_x_and_y_and_it_is_told(las):
     text = f'COMPD_CS["c",{projcs(SURVEY_1)},VERT_CS["v",VERT_DATUM["d",2005]]]'
     crs, progress = crs_of(las, las.vlr(b"LASF_Projection", 2112, text.encode()), encoding=0x10)
     assert crs.vertical_unit == crs.horizontal_unit == pytest.approx(SURVEY)
-    assert any("unit of the heights is not known" in text for text in progress.warnings)
+    assert any("unit of the heights" in text for text in progress.warnings)
 
 
 @pytest.mark.parametrize("unit", [1.0, FOOT, SURVEY, 0.25])

@@ -89,7 +89,7 @@ def test_cells_grow_with_the_distance_of_the_points_and_the_log_tells(density, c
     log = Heard()
     found = classify(points, GridMinimum(), log)
     assert len(log.infos) == 1 and not log.warnings
-    assert f"preset automatic, cell size {cell}, " in log.infos[0]
+    assert "preset automatic" in log.infos[0] and f"cell size {cell}, " in log.infos[0]
     assert error(found, ~roof) < 1.0
 
 
@@ -105,8 +105,8 @@ def test_cells_given_by_hand_or_by_the_paper_stay_and_a_warning_tells_of_gaps(pa
     log, points = Heard(), flat(1.0)
     assert parameters.resolve(points).cell_size == 0.5
     classify(points, parameters, log)
-    assert len(log.warnings) == 1 and "too few for cells of 0.5 m" in log.warnings[0]
-    assert "Give a cell size of 1 m" in log.warnings[0]
+    assert len(log.warnings) == 1 and "cells of 0.5 m" in log.warnings[0]
+    assert "cell size of 1 m" in log.warnings[0]
 
 
 def test_the_log_says_which_values_the_preset_chose_and_they_give_the_same_again():
@@ -157,7 +157,7 @@ def test_the_preset_says_how_large_a_hall_may_be():
 
 @pytest.mark.parametrize("heights", [(), (2.0, 5.0), (5.0, -1.0), ("five",), 5.0])
 def test_height_thresholds_must_be_a_descending_list_of_heights(heights):
-    with pytest.raises(BareEarthError, match="Height thresholds must be"):
+    with pytest.raises(BareEarthError, match="Height thresholds"):
         GridMinimum(height_thresholds=heights)
 
 

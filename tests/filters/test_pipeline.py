@@ -110,7 +110,7 @@ def test_a_pipeline_works_without_any_of_its_rules(method, shared):
 
 
 def test_a_rule_that_is_not_there_cannot_be_left_out():
-    with pytest.raises(ValueError, match="No rule is called wings"):
+    with pytest.raises(ValueError, match="wings"):
         pipeline_of("slope", "automatic", village()).without("plants", "wings")
 
 

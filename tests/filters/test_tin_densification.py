@@ -67,7 +67,7 @@ def test_the_log_says_which_values_the_preset_chose_and_they_give_the_same_again
     points, _ = village()
     heard, silent = Heard(), Heard()
     found = classify(points, TinDensification(), heard)
-    assert "maximum building size 150 m, iteration angle 15 deg" in heard.texts[0]
+    assert "building size 150 m, iteration angle 15 deg" in heard.texts[0]
     resolved = TinDensification().resolve(points)
     assert np.array_equal(classify(points, resolved, silent), found)
     assert not silent.texts

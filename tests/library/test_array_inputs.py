@@ -52,7 +52,7 @@ def test_records_of_laspy_are_points(las, tmp_path):
             assert len(arrays.heights(chunk)) == len(chunk)
     first = las.points[:4000]
     assert np.array_equal(arrays.heights(first), arrays.heights(las[:4000]))
-    with pytest.raises(bare_earth.BareEarthError, match="points of laspy have its own y"):
+    with pytest.raises(bare_earth.BareEarthError, match="own y"):
         arrays.ground(las.points, las.y)
 
 
@@ -91,13 +91,13 @@ def test_what_raw_records_hold_in_bits_is_read_beside_coordinates(las, point_for
     ],
 )
 def test_integers_of_files_are_no_coordinates(las, raw):
-    with pytest.raises(bare_earth.BareEarthError, match="integers as files store them"):
+    with pytest.raises(bare_earth.BareEarthError, match="integers"):
         arrays.ground(*raw(las))
 
 
 @pytest.mark.parametrize("file", ["a.laz", Path("a.laz")])
 def test_a_file_is_no_array(file):
-    with pytest.raises(bare_earth.BareEarthError, match="points must be arrays, not a file"):
+    with pytest.raises(bare_earth.BareEarthError, match=r"points must be .* not a file"):
         arrays.ground(file)
 
 
@@ -170,19 +170,19 @@ def test_an_extent_is_four_numbers_or_that_of_a_geometry(las):
     wanted = arrays.ground(las, extent=[*SQUARE.min(axis=0), *SQUARE.max(axis=0)])
     assert np.array_equal(arrays.ground(las, extent=shapely.Polygon(SQUARE)), wanted)
     for extent in ("here", (1, 2, 3), 5, [None] * 4):
-        with pytest.raises(bare_earth.BareEarthError, match="An extent is smallest x and y"):
+        with pytest.raises(bare_earth.BareEarthError, match="extent is"):
             arrays.ground(las, extent=extent)
 
 
 @pytest.mark.parametrize(
     ("shape", "words"),
     [
-        ({"type": "Point", "coordinates": [1, 2]}, "The geometry holds no polygon"),
-        ({"coordinates": [1, 2]}, "The geometry is not valid: 'type'"),
+        ({"type": "Point", "coordinates": [1, 2]}, "geometry .* no polygon"),
+        ({"coordinates": [1, 2]}, "geometry .* 'type'"),
         ([{"type": "Polygon", "coordinates": [[[0, 0], [1, 1], [0, 1]]]}, SQUARE], "nothing but"),
         ([["a", "b"]], "The polygon is not valid"),
         (5, "The polygon is not valid"),
-        ([], "The boundary holds no polygon"),
+        ([], "boundary .* no polygon"),
     ],
 )
 def test_what_is_no_polygon_is_told(las, shape, words):
@@ -198,7 +198,7 @@ def test_codes_of_a_crs_are_numbers_everywhere(las, tmp_path):
         assert bare_earth.info(path, crs=crs).epsg == 26912
     bare_earth.terrain(path, dtm=tmp_path / "dtm.tif", crs=25832)
     assert bare_earth.check(path, checkpoints=las.xyz[:9], checkpoints_crs=25832, crs=25832)
-    with pytest.raises(bare_earth.BareEarthError, match="crs must be an EPSG code"):
+    with pytest.raises(bare_earth.BareEarthError, match="crs must be"):
         bare_earth.info(path, crs=True)
 
 
@@ -334,7 +334,7 @@ def test_undeclared_no_data_in_memory_is_told(las, dtm):
     raster = arrays.Raster(values, dtm.transform, 25832)
     count = np.count_nonzero(values == -9999)
     arrays.contours(raster, progress=heard)
-    assert f"The raster raster has {count} cells of -9999, far" in heard.warnings[0]
+    assert f"raster has {count} cells of -9999" in heard.warnings[0]
 
 
 @pytest.mark.rest
@@ -343,15 +343,15 @@ def test_undeclared_no_data_in_memory_is_told(las, dtm):
     [
         (
             lambda one: one.assign_coords(x=one.x + one.x % 3),
-            "coordinates x of the DataArray are not evenly",
+            "x of the DataArray .* even",
         ),
-        (lambda one: one.drop_vars(["x", "spatial_ref"]), "DataArray has no coordinates x"),
-        (lambda one: one.to_dataset(), "a Raster or an xarray.DataArray, not Dataset"),
-        (lambda one: one.values, "not ndarray. An array becomes one by Raster"),
-        (lambda one: one.isel(y=0), "must have rows and columns"),
+        (lambda one: one.drop_vars(["x", "spatial_ref"]), "DataArray has no .* x"),
+        (lambda one: one.to_dataset(), "xarray.DataArray, not Dataset"),
+        (lambda one: one.values, "not ndarray.* Raster"),
+        (lambda one: one.isel(y=0), "rows and columns"),
         (
             lambda one: one.assign_coords(x=[*map(str, one.x.values)]),
-            "x of the DataArray are no num",
+            "x of the DataArray .* num",
         ),
     ],
 )

@@ -106,7 +106,7 @@ def test_feet_and_codes_of_a_crs_are_understood(files):
     ground = arrays.ground(*feet, crs="EPSG:2222")  # international feet
     assert np.mean(ground == (classes_of(files[1]) == 2)) > 0.97
     assert np.array_equal(arrays.ground(x, y, z, crs=25832), classes_of(files[1]) == 2)
-    with pytest.raises(bare_earth.BareEarthError, match=r"not in a projected CRS .WGS 84."):
+    with pytest.raises(bare_earth.BareEarthError, match=r"projected CRS .WGS 84"):
         arrays.ground(x / 1e5, y / 1e6, z, crs=4326)
 
 
@@ -207,7 +207,7 @@ def test_areas_of_geopandas_are_brought_to_the_crs_of_the_points(files, crs):
     assert np.nanmax(np.abs(dtm - given)) < 0.01 < np.nanmax(np.abs(dtm - without))
     known = frame(square, crs, **{"class": [6]})
     assert (arrays.classify(las, crs=25832, corrections=known)[inside] == 6).all()
-    with pytest.raises(bare_earth.BareEarthError, match="The GeoDataFrame holds no line"):
+    with pytest.raises(bare_earth.BareEarthError, match=r"GeoDataFrame .* no line"):
         arrays.terrain(las, breaklines=known, **rasters)
 
 
@@ -224,7 +224,7 @@ def test_features_are_those_of_the_files_functions(files, tmp_path):
     assert list(contours.columns) == list(wanted.columns) and contours.crs == wanted.crs
     assert contours.ELEV.tolist() == wanted.ELEV.tolist() and len(contours) > 5
     assert contours.geometry.geom_equals_exact(wanted.geometry, 0.002).all()
-    with pytest.raises(bare_earth.BareEarthError, match="Give a raster of heights"):
+    with pytest.raises(bare_earth.BareEarthError, match="raster of heights"):
         arrays.contours(arrays.terrain(las, rasters="hillshade")["hillshade"])
 
     points = frame([(50, 50, 63), (90, 70, 65), (150, 30, 69)], 4326, "points", NAME=list("abc"))
@@ -272,26 +272,20 @@ def test_progress_is_a_callable_or_a_bar_of_tqdm(files):
 
 X = np.arange(5.0)
 WRONG = {
-    "z is missing. Give x, y and z, or all": dict(points=X, y=X),
-    "x, y and z have 5, 5 and 4 values. Give as many": dict(points=X, y=X, z=X[:4]),
-    r"points must be an array of shape \(n, 3\), not \(5,\)": dict(points=X),
-    "z has 1 values that are no finite numbers": dict(points=X, y=X, z=[0, 1, 2, 3, np.nan]),
-    "y is float32, which has steps of 0.5 here": dict(
-        points=X, y=(X + 5_700_000).astype(np.float32), z=X
-    ),
-    "x must be numbers, not ": dict(points=list("abcde"), y=X, z=X),
+    "z is missing": dict(points=X, y=X),
+    "x, y and z have 5, 5 and 4": dict(points=X, y=X, z=X[:4]),
+    r"points .* \(n, 3\), not \(5,\)": dict(points=X),
+    "z has 1 .* finite": dict(points=X, y=X, z=[0, 1, 2, 3, np.nan]),
+    "y is float32.* 0.5": dict(points=X, y=(X + 5_700_000).astype(np.float32), z=X),
+    "x must be numbers": dict(points=list("abcde"), y=X, z=X),
     "x has masked values": dict(points=np.ma.masked_less(X, 2), y=X, z=X),
     "x runs from 0 to 1e[+]11": dict(points=X * 2.5e10, y=X, z=X),
-    r"classification must be an array of shape \(5,\), not \(4,\)": dict(
-        points=X, y=X, z=X, classification=[1] * 4
-    ),
-    "return_number must be whole numbers from 0 to 255": dict(
-        points=X, y=X, z=X, return_number=X + 0.5
-    ),
-    "withheld must be True or False for each point": dict(points=X, y=X, z=X, withheld=X),
-    "The table of points has no column Z, only X, Y": dict(points={"X": X, "Y": X}),
-    "The table of points has its own y": dict(points={"X": X, "Y": X, "Z": X}, y=X),
-    "crs must be an EPSG code or well-known text": dict(points=X, y=X, z=X, crs=[1]),
+    r"classification .* \(5,\), not \(4,\)": dict(points=X, y=X, z=X, classification=[1] * 4),
+    "return_number .* 0 to 255": dict(points=X, y=X, z=X, return_number=X + 0.5),
+    "withheld .* True or False": dict(points=X, y=X, z=X, withheld=X),
+    "no column Z, only X, Y": dict(points={"X": X, "Y": X}),
+    "its own y": dict(points={"X": X, "Y": X, "Z": X}, y=X),
+    "crs must be .* EPSG": dict(points=X, y=X, z=X, crs=[1]),
     "There are no points": dict(points=[], y=[], z=[]),
 }
 
@@ -303,11 +297,11 @@ def test_an_error_names_the_argument(words):
 
 
 def test_ground_that_is_not_there_is_told():
-    with pytest.raises(bare_earth.BareEarthError, match="the cloud has no ground points"):
+    with pytest.raises(bare_earth.BareEarthError, match="no ground points"):
         arrays.heights(X, X, X)
-    with pytest.raises(bare_earth.BareEarthError, match="There is no raster dem, only dtm"):
+    with pytest.raises(bare_earth.BareEarthError, match=r"raster dem, .* dtm"):
         arrays.terrain(X, X, X, rasters="dem")
-    with pytest.raises(TypeError, match="has no parameter cell_size"):
+    with pytest.raises(TypeError, match="cell_size"):
         arrays.terrain(X, X, X, cell_size=1)
 
 

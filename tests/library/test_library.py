@@ -48,21 +48,21 @@ def test_a_function_documents_its_parameters_in_order(name):
 
 
 def test_a_wrong_name_is_refused_with_the_nearest_ones():
-    with pytest.raises(TypeError, match=r"heights\(\) has no parameter outputas. .* output_as"):
+    with pytest.raises(TypeError, match=r"heights\(\) .* outputas\b.* output_as"):
         bare_earth.heights("a.laz", "b.laz", outputas="z")
-    with pytest.raises(TypeError, match=r"classify\(\): missing a required argument: 'output'"):
+    with pytest.raises(TypeError, match=r"classify\(\): .*'output'"):
         bare_earth.classify("a.laz")
-    words = r"min_neighbours is no parameter of method='grid-minimum'"
+    words = "min_neighbours .* method='grid-minimum'"
     with pytest.raises(TypeError, match=words):
         bare_earth.classify("a.laz", "b.laz", method="grid-minimum", min_neighbours=3)
 
 
 def test_a_wrong_value_is_refused_as_by_the_command():
-    with pytest.raises(bare_earth.BareEarthError, match="Method must be one of tin-densification"):
+    with pytest.raises(bare_earth.BareEarthError, match="one of tin-densification"):
         bare_earth.classify("a.laz", "b.laz", method="magic")
-    with pytest.raises(bare_earth.BareEarthError, match="must be at least 0 m, not -1"):
+    with pytest.raises(bare_earth.BareEarthError, match="at least 0 m, not -1"):
         bare_earth.water_classes("a.laz", "b.laz", water="automatic", shore_distance=-1)
-    with pytest.raises(bare_earth.BareEarthError, match="Water is found in classified points"):
+    with pytest.raises(bare_earth.BareEarthError, match="classified points"):
         bare_earth.classify("a.laz", "b.laz", dtm="dtm.tif", water="automatic")
 
 

@@ -82,13 +82,13 @@ def test_what_fails_sometimes_gives_the_same_bytes(server, tmp_path, fault):
         ("fewer", "in place of"),
         ("cut", "after 6 attempts"),
         ("short", "after 6 attempts"),
-        ("503", "status 503, after 6 attempts"),
-        ("403", "you may not read it, or it does not exist"),
+        ("503", "503.* 6 attempts"),
+        ("403", "may not read"),
         ("404", "does not exist"),
         ("416", "cut off|changed"),
         ("400", "status 400"),
-        ("to file:///etc/passwd", "leads to file:///etc/passwd, which is not followed"),
-        ("to ftp://127.0.0.1/a", "which is not followed"),
+        ("to file:///etc/passwd", "file:///etc/passwd.* not followed"),
+        ("to ftp://127.0.0.1/a", "ftp://127.0.0.1/a.* not followed"),
         ("to /a", "from one address to the next"),
     ],
 )
@@ -109,7 +109,7 @@ def test_a_whole_file_is_refused_before_it_is_read(server, tmp_path):
 
 def test_a_signature_that_has_expired_is_told(server, tmp_path):
     server.fault = lambda number, path: "403"
-    with pytest.raises(BareEarthError, match=r"has expired\. Get a new address") as told:
+    with pytest.raises(BareEarthError, match="expired") as told:
         fetched(f"{server.add('a', DATA)}?se=2026&sig=SECRET", tmp_path / "parts")
     assert "SECRET" not in str(told.value)
 
@@ -124,7 +124,7 @@ def test_a_file_that_is_replaced_meanwhile_is_refused(server, tmp_path, fault):
         return fault
 
     server.fault = replace
-    with pytest.raises(BareEarthError, match="has changed while it was downloaded"):
+    with pytest.raises(BareEarthError, match="has changed"):
         fetched(address, tmp_path / "parts")
     # The next run begins anew.
     assert fetched(address, tmp_path / "parts")[0] == wanted(DATA[::-1])
@@ -164,7 +164,7 @@ def test_redirects_to_another_host_are_told_and_get_no_password(server, tmp_path
     server.fault = lambda number, path: (
         f"to {server.address('b', 'localhost')}?sig=SECRET" if path == "a" else ""
     )
-    with pytest.raises(BareEarthError, match="leads to another server, http://localhost:") as told:
+    with pytest.raises(BareEarthError, match="another server, http://localhost:") as told:
         fetched(address, tmp_path / "parts")
     assert "SECRET" not in str(told.value) and [path for path, *_ in server.asked] == ["a"]
     server.asked.clear()
@@ -203,7 +203,7 @@ def test_a_cancel_is_noticed_within_two_seconds(server, tmp_path, fault, first):
 
 
 def test_a_server_that_is_not_there_is_told(tmp_path):
-    with pytest.raises(BareEarthError, match=r"127\.0\.0\.1 cannot be read: connection refused"):
+    with pytest.raises(BareEarthError, match=r"127\.0\.0\.1 .* refused"):
         fetched("http://127.0.0.1:9/a", tmp_path / "parts")
 
 
@@ -236,10 +236,10 @@ def test_an_answer_without_end_is_given_up(server, tmp_path, monkeypatch, fault)
 @pytest.mark.parametrize(
     ("status", "headers", "words"),
     [
-        ("429", {"Retry-After": "\u00b2"}, "status 429, after 6 attempts"),
-        ("503", {"Retry-After": "Fri, 32 Nov 2026 25:61:61 GMT"}, "status 503, after 6 attempts"),
+        ("429", {"Retry-After": "\u00b2"}, "429.* 6 attempts"),
+        ("503", {"Retry-After": "Fri, 32 Nov 2026 25:61:61 GMT"}, "503.* 6 attempts"),
         ("429", {"Retry-After": "9" * 5000}, "status 429"),
-        ("302", {"Location": "http://[::bad/x"}, "leads to something that is no address"),
+        ("302", {"Location": "http://[::bad/x"}, "no address"),
         ("302", {"Location": "http://a:b/x"}, "names no server"),
         ("206", {"Content-Range": f"bytes 0-{'9' * 5000}/{'9' * 5000}"}, "no range of bytes"),
         ("206", {"Content-Range": "bytes 0-\u00b2/\u00b2"}, "no range of bytes"),
@@ -338,7 +338,7 @@ def test_a_proxy_is_asked_for_the_address(server, tmp_path, monkeypatch):
     assert fetched("http://far.example/a", tmp_path / "parts")[0] == wanted()
     assert server.asked[0][2]["Proxy-Authorization"].startswith("Basic ")
     monkeypatch.setenv("http_proxy", "socks5://127.0.0.1:1")
-    with pytest.raises(BareEarthError, match="of a kind that is not known"):
+    with pytest.raises(BareEarthError, match="proxy socks5:"):
         fetched("http://far.example/a", tmp_path / "parts")
 
 
@@ -381,9 +381,9 @@ class Store:
 @pytest.mark.parametrize(
     ("fault", "words"),
     [
-        ("missing", "s3://bucket/a does not exist"),
-        ("denied", "You may not read s3://bucket/a"),
-        ("changed", "has changed while it was downloaded"),
+        ("missing", "s3://bucket/a .* exist"),
+        ("denied", "may not read s3://bucket/a"),
+        ("changed", "has changed"),
         ("short", "after 6 attempts"),
         ("", None),
     ],

@@ -150,9 +150,9 @@ def test_the_command_tells_what_it_downloads(server, tmp_path, content):
 @pytest.mark.parametrize(
     ("given", "words"),
     [
-        ({"limit": 0.0}, r"limit of 0\.0 kB\. Choose a smaller area"),
-        ({"extent": (0, 0, 1, 1)}, "No point of whole.copc.laz lies in the area"),
-        ({"output": "part.las"}, "name it .copc.laz or .laz"),
+        ({"limit": 0.0}, r"limit of 0\.0 kB"),
+        ({"extent": (0, 0, 1, 1)}, "No point of whole.copc.laz"),
+        ({"output": "part.las"}, ".copc.laz or .laz"),
         ({"address": "file:///a.copc.laz"}, "cannot be fetched"),
         ({"address": "nowhere.copc.laz"}, "does not exist"),
     ],
@@ -232,7 +232,7 @@ def test_the_extent_in_the_header_decides_nothing(server, tmp_path, content):
 
 def test_a_page_that_would_be_huge_is_not_asked_for(server, tmp_path, content, monkeypatch):
     monkeypatch.setattr(copc, "_LARGEST_PAGES", -1)
-    with pytest.raises(BareEarthError, match=r"is damaged: its pages would have [\d,]+ bytes"):
+    with pytest.raises(BareEarthError, match=r"octree .* [\d,]+ bytes"):
         bare_earth.fetch(server.add("whole.copc.laz", content), tmp_path / "part.laz")
 
 
@@ -250,7 +250,7 @@ def test_a_cancel_leaves_no_file_and_the_next_run_goes_on(
     assert not target.exists()
     kept = [path for path in tmp_path.rglob("[0-9]*-*") if path.parent.name == "0"]
     assert bool(progress.warnings) == bool(kept) == (share > 0)
-    assert not kept or "the same command goes on from there" in progress.warnings[-1]
+    assert not kept or "same command" in progress.warnings[-1]
     size = sum(path.stat().st_size for path in kept)
     # Not what the server was asked for or sent: requests that were cancelled come late.
     assert bare_earth.fetch(address, target).size <= len(content) + 30_000 - size

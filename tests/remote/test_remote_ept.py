@@ -2,6 +2,7 @@
 
 import io
 import json
+import re
 
 import laspy
 import numpy as np
@@ -65,7 +66,7 @@ def test_tiles_of_plain_rows_are_read_by_the_schema(server, tmp_path, name):
     assert set(cloud.red) == {300} and np.allclose(cloud.scan_angle * 0.006, -12)
     tile = next(path for path in server.files if "ept-data" in path)
     server.files[tile] = server.files[tile][:-5]
-    with pytest.raises(BareEarthError, match="tile 0-0-0-0 is damaged"):
+    with pytest.raises(BareEarthError, match=r"0-0-0-0 .*damaged"):
         bare_earth.fetch(address, tmp_path / "again.laz")
 
 
@@ -80,13 +81,13 @@ def test_a_missing_tile_stops_or_is_counted(server, tmp_path):
     address = add_ept(server)[1]
     gone = server.files.pop("set/ept-data/2-1-1-0.laz")
     count = laspy.read(io.BytesIO(gone)).header.point_count
-    with pytest.raises(BareEarthError, match=r"does not exist.*skip_missing=True"):
+    with pytest.raises(BareEarthError, match="skip_missing=True"):
         bare_earth.fetch(address, tmp_path / "part.laz")
     kept = [path.name for path in (tmp_path / "part.laz.parts" / "0").glob("[0-9]*.laz")]
     assert kept
     asked = len(server.asked)
     code, _, errors = said("fetch", address, tmp_path / "part.laz", "--skip-missing")
-    assert code == 0 and f"lacks 1 tile of set with {count:,} points" in errors
+    assert code == 0 and re.search(f"1 tile of set .*{count:,} points", errors)
     assert len(table_of(tmp_path / "part.laz")) == 3000 - count
     # What was there was not asked for again.
     again = [path for path, *_ in server.asked[asked:] if "ept-data" in path]
@@ -145,7 +146,7 @@ def test_web_mercator_is_kept_with_a_warning(server, tmp_path, states_unit):
     points, address = add_ept(server, srs={"wkt": wkt})
     code, _, errors = said("fetch", address, tmp_path / "part.laz")
     assert code == 0 and "Mercator projection" in errors and "--to-utm" in errors
-    assert ("The unit of its heights is not stated" in errors) == (not states_unit)
+    assert ("unit of its heights" in errors) == (not states_unit)
     assert np.allclose(table_of(tmp_path / "part.laz"), points, atol=1e-6)
 
 
@@ -156,9 +157,7 @@ def test_web_mercator_becomes_utm_and_heights_metres(server, tmp_path, ending):
     mercator = pyproj.CRS.from_epsg(3857)
     points, address = add_ept(server, srs={"wkt": mercator.to_wkt("WKT1_GDAL")})
     target = tmp_path / f"part.{ending}"
-    with pytest.raises(
-        BareEarthError, match=r"set does not state the unit .* 'height_unit'.*: metre"
-    ):
+    with pytest.raises(BareEarthError, match=r"'height_unit'.* metre"):
         bare_earth.fetch(address, target, extent=BOX, to_utm=True)
     assert not [path for path, *_ in server.asked if "ept-data" in path]
     done = bare_earth.fetch(address, target, extent=BOX, to_utm=True, height_unit="us-foot")
@@ -188,7 +187,7 @@ def test_only_web_mercator_becomes_utm(server, tmp_path):
         ({"dataType": "binary"}, "does not exist"),
         ({"span": 0}, "cube has no size"),
         ({"bounds": [1]}, "cube has no size"),
-        ({"bounds": None}, "description cannot be read"),
+        ({"bounds": None}, "description"),
         ({"boundsConforming": [1]}, "extent cannot be read"),
     ],
 )
@@ -205,7 +204,7 @@ def test_a_damaged_description_is_refused(server, tmp_path, change, words):
 def test_a_damaged_hierarchy_is_refused(server, tmp_path, text):
     address = add_ept(server)[1]
     server.files["set/ept-hierarchy/0-0-0-0.json"] = text.encode()
-    with pytest.raises(BareEarthError, match=r"no EPT data set that can be read|no point cloud"):
+    with pytest.raises(BareEarthError, match=r"EPT|no point cloud"):
         bare_earth.fetch(address, tmp_path / "part.laz")
 
 
@@ -223,7 +222,7 @@ def test_a_tile_that_is_no_cloud_is_refused(server, tmp_path):
 def test_a_page_that_names_itself_is_refused(server, tmp_path, count, page):
     address, name = add_ept(server)[1], f"set/ept-hierarchy/{page}.json"
     server.files[name] = json.dumps({**json.loads(server.files[name]), page: count}).encode()
-    with pytest.raises(BareEarthError, match=f"{page}.json names itself"):
+    with pytest.raises(BareEarthError, match=f"{page}.json .*itself"):
         bare_earth.fetch(address, tmp_path / "part.laz")
 
 
@@ -249,7 +248,7 @@ def test_a_document_that_unpacks_to_too_much_is_refused(server, tmp_path):
     address = add_ept(server)[1]
     server.files["set/ept.json"] = b"[" + bytes(1 << 23)
     server.fault = lambda number, path: "packed"
-    with pytest.raises(BareEarthError, match="has more than 4,194,304 bytes"):
+    with pytest.raises(BareEarthError, match="4,194,304 bytes"):
         bare_earth.fetch(address, tmp_path / "part.laz")
 
 
@@ -286,8 +285,8 @@ def test_coordinates_of_other_types_are_read(server, tmp_path, kind):
 @pytest.mark.parametrize(
     ("name", "text", "words"),
     [
-        ("ept-hierarchy/0-0-0-0.json", b'{"0-0-0-0": 200000000}', "a tile of 200,000,000 points"),
-        ("ept-hierarchy/0-0-0-0.json", b" " * (1 << 24) + b"{}", "too much for what it should be"),
+        ("ept-hierarchy/0-0-0-0.json", b'{"0-0-0-0": 200000000}', "200,000,000 points"),
+        ("ept-hierarchy/0-0-0-0.json", b" " * (1 << 24) + b"{}", "too much"),
         ("ept.json", b"[" + b"[]," * (1 << 20) + b"0]", "ept.json cannot be read"),
     ],
 )
@@ -303,7 +302,7 @@ def test_a_crs_as_text_is_read_and_missing_points_are_told(server, tmp_path):
     about = json.loads(server.files["set/ept.json"])
     server.files["set/ept.json"] = json.dumps({**about, "points": 3001}).encode()
     errors = said("fetch", address, tmp_path / "part.laz")[2]
-    assert "set have 3,000 points, not 3,001 as its description says" in errors
+    assert re.search(r"set .* 3,000 points, not 3,001\b", errors)
     assert read_crs(open_las(tmp_path / "part.laz")).epsg == 25832
 
 
@@ -377,7 +376,7 @@ def test_clouds_outside_of_the_area_are_not_asked_for(server, copc, tmp_path):
 @pytest.mark.parametrize("href", ["s3://127.0.0.1/a.copc.laz", "http://127.0.0.1:9/a.copc.laz"])
 def test_another_port_or_scheme_is_another_server(server, tmp_path, href):
     address = server.add("all.vpc", text_of(item_of(href)))
-    with pytest.raises(BareEarthError, match=f"other servers: {href[:14]}.*follow=True"):
+    with pytest.raises(BareEarthError, match=f"{href[:14]}.*follow=True"):
         bare_earth.fetch(address, tmp_path / "part.laz")
 
 
@@ -403,15 +402,15 @@ def test_one_file_of_an_item_is_fetched(server, copc, tmp_path):
     item["assets"]["ept"] = {"href": "set/ept.json"}
     address = server.add("all.vpc", text_of(item))
     code, _, errors = said("fetch", address, tmp_path / "part.laz")
-    assert code == 0 and "has 1 item both as COPC and as EPT: COPC is taken" in errors
+    assert code == 0 and re.search("1 item .*EPT.* COPC is taken", errors)
     assert len(laspy.read(tmp_path / "part.laz")) == 4000
 
 
 def test_a_list_that_would_fill_the_memory_is_refused(server, tmp_path):
     text = b'{"type": "FeatureCollection", "features": [' + b"{}," * 6_000 + b"{}]}"
-    with pytest.raises(BareEarthError, match="more than 5,000 point clouds"):
+    with pytest.raises(BareEarthError, match="5,000 point clouds"):
         bare_earth.fetch(server.add("all.vpc", text), tmp_path / "part.laz")
-    with pytest.raises(BareEarthError, match="neither a point cloud nor a list"):
+    with pytest.raises(BareEarthError, match="neither a point cloud"):
         server.add("all.vpc", text.replace(b"{},", b"{}," * 1000))
         bare_earth.fetch(server.address("all.vpc"), tmp_path / "part.laz")
 
@@ -433,7 +432,7 @@ def test_other_servers_are_followed_only_if_the_user_says_so(server, copc, tmp_p
     local = tmp_path / "local.vpc"
     local.write_bytes(text_of(item_of(server.address("clouds/a.copc.laz"))))
     for given, host in ((address, "localhost"), (local, "127.0.0.1")):
-        with pytest.raises(BareEarthError, match=f"other servers: http://{host}:.*follow=True"):
+        with pytest.raises(BareEarthError, match=f"http://{host}:.*follow=True"):
             bare_earth.fetch(given, tmp_path / "part.laz")
         assert {path for path, *_ in server.asked} <= {"all.vpc"}
     for given in (address, local):
@@ -446,8 +445,8 @@ def test_other_servers_are_followed_only_if_the_user_says_so(server, copc, tmp_p
         (text_of(item_of("file:///etc/passwd.copc.laz")), "cannot be fetched"),
         (text_of(item_of("a.txt")), "lists no COPC"),
         (text_of(), "lists no COPC"),
-        (b"<html></html>", "neither a point cloud nor a list"),
-        (b"[]", "neither a point cloud nor a list"),
+        (b"<html></html>", "neither a point cloud"),
+        (b"[]", "neither a point cloud"),
         (json.dumps({"type": "Feature", "assets": [1]}).encode(), "lists no COPC"),
     ],
 )

@@ -147,12 +147,10 @@ def test_a_changed_object_is_fetched_anew(server, tiles, tmp_path):
 def test_too_much_without_an_area_is_refused(server, tiles, tmp_path):
     address = add(server, tiles[0])
     code, _, errors = said("classify", address, tmp_path / "out.laz", "--limit", "0.00001")
-    assert code == 1 and "more than the limit of 10.0 kB" in errors
-    assert "Give an area with --extent or --boundary, or raise the limit: --limit 0.1" in errors
+    assert code == 1 and "limit of 10.0 kB" in errors
+    assert re.search("--extent or --boundary.* --limit 0.1", errors)
     assert not cached(tmp_path) and not (tmp_path / "out.laz").exists()
-    with pytest.raises(
-        BareEarthError, match=r"Download a part of it first, with bare_earth\.fetch"
-    ):
+    with pytest.raises(BareEarthError, match=r"with bare_earth\.fetch"):
         bare_earth.info(address, limit=0.00001)
     assert said("key-points", address, tmp_path / "out.laz")[0] == 0
 
@@ -244,7 +242,7 @@ def test_the_cache_is_cleared_and_nothing_else(server, tiles, tmp_path):
 def test_outputs_in_the_cache_cannot_replace_what_is_read(server, tiles, tmp_path):
     address = add(server, tiles[0])
     bare_earth.info(address)
-    with pytest.raises(BareEarthError, match="Input and output are the same file"):
+    with pytest.raises(BareEarthError, match="the same file"):
         bare_earth.classify(address, cached(tmp_path)[0])
 
 
@@ -262,7 +260,7 @@ def test_errors_name_the_address(server, tiles, tmp_path):
     extent = WEST + 120.001, SOUTH + 20.001, WEST + 120.002, SOUTH + 20.002
     with pytest.raises(BareEarthError) as told:
         bare_earth.classify(add(server, tiles[0]), tmp_path / "out.laz", extent=extent)
-    assert f"No point of {server.address(tiles[0].name)} lies in the area" in str(told.value)
+    assert f"No point of {server.address(tiles[0].name)} " in str(told.value)
 
 
 def test_an_interrupted_run_goes_on(server, tiles, tmp_path):
@@ -277,7 +275,7 @@ def test_an_interrupted_run_goes_on(server, tiles, tmp_path):
 
 
 def test_a_limit_is_a_number(server, tiles):
-    with pytest.raises(BareEarthError, match="must be a number of gigabytes, not nan"):
+    with pytest.raises(BareEarthError, match="gigabytes, not nan"):
         bare_earth.info(add(server, tiles[0]), limit=float("nan"))
     assert not server.asked
 
@@ -322,7 +320,7 @@ def test_a_plain_file_obeys_the_limit_and_the_area(server, tmp_path):
     far = "--extent", WEST + 9000, SOUTH, WEST + 9100, SOUTH + 100
     assert said("classify", address, tmp_path / "a.laz", *far)[0] == 1
     assert server.sent < plain.stat().st_size and not cached(tmp_path)
-    with pytest.raises(BareEarthError, match=r"Give it to the tool .* bare_earth.classify"):
+    with pytest.raises(BareEarthError, match=r"bare_earth\.classify"):
         bare_earth.fetch(address, tmp_path / "a.laz")
 
 
@@ -381,7 +379,7 @@ def test_web_mercator_is_refused_before_it_is_downloaded(
     here = sorted(tmp_path.rglob("*"))
     code, _, errors = said(command, *before, add(server, mercator), *behind)
     assert code == 1 and "in a Mercator projection" in errors, errors
-    assert "lengths are 1.43 times too long" in errors and "'bare-earth fetch'" in errors
+    assert "1.43 times too long" in errors and "'bare-earth fetch'" in errors
     assert "pdal translate" in errors and server.sent < mercator.stat().st_size / 2
     assert [path for path in here if not path.exists()] == [] == cached(tmp_path)
 

@@ -1,6 +1,7 @@
 """Servers of clouds: certificates, signatures that expire, and stores of objects."""
 
 import json
+import re
 import ssl
 
 import pytest
@@ -67,7 +68,7 @@ def test_an_authority_in_ssl_cert_file_is_trusted(serve, authority, monkeypatch,
 @pytest.mark.parametrize(
     ("case", "words"),
     [
-        ("unknown", "self.signed certificate in certificate chain|unable to get local issuer"),
+        ("unknown", "self.signed certificate|local issuer"),
         ("of another host", "[Hh]ostname mismatch"),
         ("expired", "certificate has expired"),
     ],
@@ -88,7 +89,7 @@ def test_certificates_that_are_not_valid_are_refused(
             bare_earth.fetch(server.address("a.copc.laz", "localhost"), tmp_path / "a.laz")
         # Nothing was asked for, with a query or without.
         assert not server.asked
-    assert "The certificate of localhost is not valid" in str(told.value)
+    assert "certificate of localhost" in str(told.value)
     assert "SSL_CERT_FILE" in str(told.value)
 
 
@@ -97,7 +98,7 @@ def test_https_does_not_lead_to_http(serve, authority, monkeypatch, tmp_path):
     with serve("localhost") as server, serving() as plain:
         server.add("a.copc.laz", b"LASF")
         server.fault = lambda number, path: f"to {plain.add('a.copc.laz', b'LASF')}"
-        with pytest.raises(BareEarthError, match="which is not followed"):
+        with pytest.raises(BareEarthError, match=r"http://.* not followed"):
             bare_earth.fetch(server.address("a.copc.laz", "localhost"), tmp_path / "a.laz")
         assert not plain.asked
 
@@ -183,7 +184,7 @@ def test_a_token_is_got_and_renewed(planet, content, tmp_path, refusal, lasts, m
     (tmp_path / "whole.copc.laz").write_bytes(content)
     bare_earth.fetch(tmp_path / "whole.copc.laz", tmp_path / "local.copc.laz")
     assert (tmp_path / "all.copc.laz").read_bytes() == (tmp_path / "local.copc.laz").read_bytes()
-    assert f"{TOKENS} is asked for a signature for usgslidareuwest/copc." in errors
+    assert re.search(f"{TOKENS} .* usgslidareuwest/copc", errors)
     assert len(planet.asked_for_tokens) == planet.given and (planet.given > 1) == (lasts == 4)
     assert {path.rpartition("/token/")[2] for path in planet.asked_for_tokens} == {
         "usgslidareuwest/copc"
@@ -210,7 +211,7 @@ def test_without_leave_nobody_is_asked(planet, content, tmp_path):
     for words in (("fetch",), ("classify",)):
         cache = ("--cache", tmp_path / "cache") if words == ("classify",) else ()
         code, _, errors = said(*words, address, tmp_path / "out.laz", *cache)
-        assert code == 1 and "--follow of 'bare-earth fetch' gets a signature" in errors
+        assert code == 1 and "--follow of 'bare-earth fetch'" in errors
     assert not planet.asked_for_tokens and not (tmp_path / "out.laz").exists()
 
 
@@ -220,9 +221,7 @@ def test_an_address_whose_own_signature_expires_is_renewed_or_told(
     monkeypatch.setattr(transfers, "_THREADS", 1)
     address = f"{planet.add('copc/a.copc.laz', content)}?{SECRETS[0]}"
     planet.lasts = 3
-    with pytest.raises(
-        BareEarthError, match=r"has expired\. Get a new address.*follow=True"
-    ) as told:
+    with pytest.raises(BareEarthError, match=r"expired.*follow=True") as told:
         bare_earth.fetch(address, tmp_path / "all.laz")
     # What was there stays, under a name without the token.
     assert (tmp_path / "all.laz.parts").is_dir() and not (tmp_path / "all.laz").exists()
@@ -251,7 +250,7 @@ def test_what_no_token_opens_is_one_sentence(planet, content, tmp_path, case):
 def test_a_server_of_tokens_that_fails_is_told(planet, content, tmp_path, monkeypatch):
     monkeypatch.setattr(signing, "_TOKENS", "http://127.0.0.1:9/token")
     monkeypatch.setenv("no_proxy", "127.0.0.1")
-    with pytest.raises(BareEarthError, match=r"127\.0\.0\.1 cannot be read: connection refused"):
+    with pytest.raises(BareEarthError, match=r"127\.0\.0\.1 .* refused"):
         bare_earth.fetch(planet.add("copc/a.copc.laz", content), tmp_path / "a.laz", follow=True)
 
 
@@ -260,7 +259,7 @@ def test_an_item_of_stac_leads_to_signed_clouds(planet, content, tmp_path):
     assets = {"data": {"href": near}, "thumbnail": {"href": far.replace("laz", "png")}}
     item = {"type": "Feature", "properties": {}, "assets": assets}
     address = planet.add("api/stac/v1/item", json.dumps(item).encode(), TOKENS)
-    with pytest.raises(BareEarthError, match=f"other servers: http://{BLOBS}"):
+    with pytest.raises(BareEarthError, match=f"servers: http://{BLOBS}"):
         bare_earth.fetch(address, tmp_path / "part.laz", extent=BOX)
     assert not planet.asked_for_tokens
     done = bare_earth.fetch(address, tmp_path / "part.laz", extent=BOX, follow=True)
@@ -311,7 +310,7 @@ def test_a_list_in_a_store_names_its_neighbours(bucket, fsspec, tmp_path):
 
 
 def test_what_is_not_there_is_told(bucket, tmp_path):
-    with pytest.raises(BareEarthError, match=f"{bucket}/none.copc.laz does not exist"):
+    with pytest.raises(BareEarthError, match=f"{bucket}/none.copc.laz .* exist"):
         bare_earth.fetch(f"{bucket}/none.copc.laz", tmp_path / "part.laz")
     assert not list(tmp_path.iterdir())
 
@@ -327,10 +326,10 @@ class NoCredentialsError(Exception):
 @pytest.mark.parametrize(
     ("raised", "words"),
     [
-        (EndpointConnectionError, "EndpointConnectionError, after 6 attempts"),
-        (NoCredentialsError, "You may not read s3://lidar/a.copc.laz .* how fsspec is set up"),
+        (EndpointConnectionError, "EndpointConnectionError.* 6 attempts"),
+        (NoCredentialsError, "not read s3://lidar/a.copc.laz .* fsspec"),
         (PermissionError, "You may not read"),
-        (ImportError, "needs fsspec .*: pip install fsspec"),
+        (ImportError, "pip install fsspec"),
     ],
 )
 def test_the_errors_of_a_store_are_told(tmp_path, monkeypatch, fsspec, raised, words):
