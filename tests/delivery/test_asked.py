@@ -56,7 +56,7 @@ def test_a_value_that_was_given_is_not_that_of_the_delivery(cloud, tmp_path, run
         assert "Drone site: preset site" in said.err + said.out
         said = capsys.readouterr()
         lines = (said.err + said.out).splitlines()
-        assert "As asked: preset automatic, low noise class off." in lines
+        assert any("preset automatic, low noise class off" in line for line in lines)
         assert not any("preset site" in line for line in lines)
 
 
@@ -75,5 +75,5 @@ def test_a_read_only_disk_is_named(cloud, tmp_path, monkeypatch):
         raise OSError(30, "Read-only file system")
 
     monkeypatch.setattr(folder_module, "check_lengths", refuse)
-    with pytest.raises(BareEarthError, match=r"Cannot write .*out: the disk is read-only"):
+    with pytest.raises(BareEarthError, match=r"out: .* read-only"):
         bare_earth.deliver(cloud, tmp_path / "out", delivery="forestry", crs=25832)

@@ -499,7 +499,7 @@ def test_a_second_run_classifies_files_with_classes_of_water_again(
     assert all(
         np.array_equal(before[name], classes) for name, classes in classes_by_file(target).items()
     )
-    assert any("2 finished files are made again" in text for text in progress.infos) == resume
+    assert any("2 finished files" in text for text in progress.infos) == resume
     if not resume:
         return
     # Without water, nothing is left of the classes of water.
@@ -551,11 +551,11 @@ def test_a_delivery_is_kept_beside_an_old_one_that_a_program_has_open(
     deliver(source, target, **SMALL)
     before = content()
     windows.hold(target / "dtm.tif")
-    with pytest.raises(OutputInUse, match=r"dtm\.tif: another program uses it"):
+    with pytest.raises(OutputInUse, match=r"dtm\.tif: another program"):
         deliver(source, target, **SMALL)  # before any work
     assert content() == before and os.listdir(tmp_path) == ["out"]
     windows.in_use.clear()
-    with pytest.raises(OutputInUse, match=r"dtm\.tif: another.* is kept in .*out-new\."):
+    with pytest.raises(OutputInUse, match=r"dtm\.tif: another.*out-new\b"):
         deliver(source, target, progress=Opens(), **SMALL)
     # Nothing is half new. Of many files, the points are there, so the page is not.
     said = {"delivery.json", "index.html"}
@@ -583,7 +583,7 @@ def test_a_file_that_cannot_be_read_is_named_on_the_page(scene, tmp_path):
     (tiles / "broken.laz").write_bytes(b"LASF")
     summary = deliver(tiles, tmp_path / "out", **SMALL)
     assert [os.path.basename(path) for path in summary.failures] == ["broken.laz"]
-    assert "<li>broken.laz is left out." in (tmp_path / "out" / "index.html").read_text("utf-8")
+    assert "<li>broken.laz is left" in (tmp_path / "out" / "index.html").read_text("utf-8")
 
 
 def test_an_error_names_the_folder_of_the_user(scene, tmp_path):
@@ -608,19 +608,17 @@ def test_a_delivery_replaces_an_earlier_one_and_nothing_else(scene, tmp_path):
 
 def test_what_cannot_be_delivered_is_said_before_any_work(scene, tmp_path):
     source = scene[1]
-    with pytest.raises(
-        BareEarthError, match=r"no delivery 'x'\. Choose one of survey, archaeology"
-    ):
+    with pytest.raises(BareEarthError, match=r"'x'.* survey, archaeology"):
         deliver(source, tmp_path / "out", delivery="x")
     (tmp_path / "mine").mkdir()
     (tmp_path / "mine" / "dtm.tif").write_text("mine")
-    with pytest.raises(BareEarthError, match=r"holds other files, such as dtm\.tif"):
+    with pytest.raises(BareEarthError, match=r"other files, .*dtm\.tif"):
         deliver(source, tmp_path / "mine")
-    with pytest.raises(BareEarthError, match="is in the folder of the delivery"):
+    with pytest.raises(BareEarthError, match="in the folder of the delivery"):
         deliver(source, source.parent)
-    with pytest.raises(BareEarthError, match=r"it is a file\. Give a folder"):
+    with pytest.raises(BareEarthError, match="is a file"):
         deliver(source, source)
-    with pytest.raises(BareEarthError, match=r"does not exist\. Create it first"):
+    with pytest.raises(BareEarthError, match="no does not exist"):
         deliver(source, tmp_path / "no" / "where")
     assert (tmp_path / "mine" / "dtm.tif").read_text() == "mine"
 
@@ -718,7 +716,7 @@ def test_checkpoints_are_among_what_the_command_prints(scene, tmp_path, capsys):
     ]  # fmt: skip
     assert re.search(r"^checkpoints +3 of 3 are counted.* 30$", rows[1])
     assert re.search(r"RMSE 0\.\d{3} m, mean [+-]0\.\d{3} m, of 3 ", rows[2])
-    assert "meet the class of 0.1 m, by 3 of the 30" in rows[3]
+    assert "class of 0.1 m, by 3 of the 30" in rows[3]
 
 
 @pytest.mark.rest

@@ -141,7 +141,7 @@ def test_a_scheduler_that_is_not_there_is_told(survey, tmp_path, monkeypatch, ca
     words = ["classify", survey[0], tmp_path / "out"]
     address = f"tcp://127.0.0.1:{free_port()}"
     assert main([*map(str, words), "--scheduler", address]) == 1
-    assert f"No Dask scheduler answers at {address}" in capsys.readouterr().err
+    assert f"scheduler answers at {address}" in capsys.readouterr().err
 
 
 KEYS = ("tls.ca-file", "tls.client.cert", "tls.client.key")
@@ -151,7 +151,7 @@ KEYS = ("tls.ca-file", "tls.client.cert", "tls.client.key")
 @pytest.mark.parametrize(
     ("scheme", "settings", "told"),
     [
-        ("tls", {}, "TLS needs a certificate, a key and an authority"),
+        ("tls", {}, "TLS needs a certificate"),
         ("tcp", {"require-encryption": True}, "encryption is required"),
         ("tls", dict.fromkeys(KEYS, "none"), "or the key cannot be used"),
     ],
@@ -168,7 +168,7 @@ def test_an_address_that_the_keys_do_not_fit_is_refused(scheme, settings, told, 
 @pytest.mark.rest
 def test_workers_of_another_version_are_refused(dask, survey, tmp_path, monkeypatch):
     monkeypatch.setattr(version, "__version__", "99.9")
-    with pytest.raises(BareEarthError, match=r"has version .* and this computer 99\.9"):
+    with pytest.raises(BareEarthError, match=r"version .* this computer 99\.9"):
         classify([survey[0]], tmp_path / "out", scheduler=dask[0], **FAST)
 
 
@@ -218,7 +218,7 @@ def test_a_scheduler_that_ends_is_told_and_the_run_goes_on_without_it(clusters, 
             scheduler.kill()
 
     out = tmp_path / "out"
-    with pytest.raises(BareEarthError, match="The scheduler is gone"):
+    with pytest.raises(BareEarthError, match="scheduler is gone"):
         classify([folder], out, progress=Killer(), scheduler=address, **FAST)
     summary = classify([folder], out, resume=True, **FAST)
     assert summary.done_count == 16 and bytes_of(out) == expected
@@ -261,7 +261,7 @@ def test_a_cluster_whose_workers_are_all_gone_is_told(survey, tmp_path, monkeypa
 
         out = tmp_path / "out"
         begun = time.monotonic()
-        with pytest.raises(BareEarthError, match=r"All workers of .* are gone"):
+        with pytest.raises(BareEarthError, match=r"workers of .* gone"):
             classify([folder], out, progress=Killer(), scheduler=address, **FAST)
         assert time.monotonic() - begun < 30.0
     summary = classify([folder], out, resume=True, **FAST)
@@ -306,7 +306,7 @@ def test_over_tls_the_bytes_are_the_same_and_without_keys_nobody_gets_in(
         assert bytes_of(tmp_path / "out") == survey[1]
         plain, key = address.replace("tls", "tcp"), "distributed.comm.tls.client.key"
         for settings, at, told in (
-            ({}, address, "TLS needs a certificate, a key and an authority"),
+            ({}, address, "TLS needs a certificate"),
             (secret, plain, "encryption is required"),
             (
                 {**secret, key: str(tmp_path / "none")},

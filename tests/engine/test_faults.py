@@ -397,7 +397,7 @@ def test_a_rename_that_fails_is_told_and_one_that_was_done_counts(
 
     code, old = run(errno.ESTALE, False)
     said = capsys.readouterr().err
-    assert code == 1 and "the network disk lost the file" in said
+    assert code == 1 and "network disk" in said
     assert len([line for line in said.splitlines() if line.startswith("bare-earth: ")]) == 1
     assert {path: Path(path).read_bytes() for path in old} == old
     assert not list(out.rglob("*.laz")) or name not in SURVEYS

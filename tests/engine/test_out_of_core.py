@@ -215,7 +215,7 @@ def test_a_copc_file_stays_one_though_it_does_not_fit(tmp_path):
 def test_a_full_disk_is_told_in_a_sentence(tmp_path, monkeypatch, small, tells, spared):
     source = write(tmp_path / "in.las")
     become_full(monkeypatch, 0, tells, spared)
-    with pytest.raises(BareEarthError, match=r"Cannot write .*out\.laz: the disk is full"):
+    with pytest.raises(BareEarthError, match=r"out\.laz: .*disk.* full"):
         run(source, tmp_path / "out", "slope", LITTLE, returns="all")
     assert not list((tmp_path / "out").iterdir())
 
@@ -223,8 +223,8 @@ def test_a_full_disk_is_told_in_a_sentence(tmp_path, monkeypatch, small, tells, 
 @pytest.mark.parametrize(
     ("options", "words"),
     [
-        ({"from_classes": (64,)}, r"only the classes 1, 2, 5, 7, 9\. Choose the"),
-        ({"to_class": 255, "extent": (0, 0, 1, 1)}, "the points lie in x 500000 to"),
+        ({"from_classes": (64,)}, r"only the classes 1, 2, 5, 7, 9\b"),
+        ({"to_class": 255, "extent": (0, 0, 1, 1)}, "points lie in x 500000 to"),
     ],
 )
 def test_the_same_errors_on_disk(options, words, tmp_path):
@@ -287,7 +287,7 @@ def test_a_killed_run_leaves_nothing_beside_the_output(module, number, tmp_path)
     assert process.returncode != 0
     assert os.listdir(out) == []
     if number == signal.SIGTERM:
-        assert process.returncode == 1 and "Cancelled; nothing was written." in said
+        assert process.returncode == 1 and "nothing was written" in said
 
 
 def test_a_block_without_cells_is_read_from_disk(tmp_path):

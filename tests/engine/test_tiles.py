@@ -294,7 +294,7 @@ def test_other_parameters_or_inputs_make_tiles_anew_where_they_matter(six, out):
     survey = dict(resume=True, blocks=Blocks(40.0, 5.0))
     other, progress = {"height_threshold": 0.4}, Heard()
     assert classify(six, out, **other, progress=progress, **survey).kept_count == 0
-    assert any("6 finished files are made again" in text for text in progress.infos)
+    assert any("6 finished files" in text for text in progress.infos)
     assert classify(six, out, **other, **survey).kept_count == 6
     other["others"] = "unclassified"
     assert classify(six, out, **other, **survey).kept_count == 0
@@ -440,7 +440,7 @@ def test_broken_tiles_are_told_at_the_end_and_the_others_done(six, out, capsys):
     assert [Path(path).name for path in summary.failures] == ["1.laz", "9.laz"]
     assert summary.done_count == 5 and summary.tile_count == 7
     assert set(bytes_of(out)) == {"0.laz", "2.laz", "3.laz", "4.laz", "5.laz"}
-    assert any("1.laz is left out: the results beside it" in text for text in progress.warnings)
+    assert any("1.laz is left out: " in text for text in progress.warnings)
     assert len(read_vpc(out / "classified.vpc")) == 5
     assert main(["classify", str(six), str(out), "--method", "slope", "--json"]) == 1
     said = capsys.readouterr()
@@ -469,9 +469,7 @@ def test_a_tile_without_points_that_can_be_ground_is_written_unchanged(six, out)
 def test_a_survey_of_which_nothing_can_be_classified_fails(tmp_path, out):
     (tmp_path / "in").mkdir()
     write(tmp_path / "in" / "a.laz", strip(500), classes=18)
-    with pytest.raises(
-        BareEarthError, match=r"^a\.laz has no ground\. All are of class 18\. Choose"
-    ):
+    with pytest.raises(BareEarthError, match=r"^a\.laz has no ground.* class 18\b"):
         classify(tmp_path / "in", out)
     assert not (out / "classified.vpc").exists() and not (out / "a.laz").exists()
 
@@ -629,7 +627,7 @@ def test_a_second_run_into_the_same_folder_is_refused_and_the_first_goes_on(six,
     class Second(Progress):
         def report(self, fraction):
             if fraction > 0.1 and not refused:
-                with pytest.raises(BareEarthError, match="Another run writes into") as error:
+                with pytest.raises(BareEarthError, match="Another run") as error:
                     classify(six, tmp_path / "out")
                 refused.append(error)
 
@@ -658,7 +656,7 @@ def test_a_tile_that_changed_since_its_points_were_labelled_is_not_written(six, 
     workers = replacing_jobs(Threads, instead_of("2.laz", OvertakenJob))
     done = classify_tiles([six], out, FAST, workers=workers)
     assert [Path(path).name for path in done.failures] == ["2.laz"]
-    assert "changed while it was worked on" in next(iter(done.failures.values()))
+    assert "2.laz has changed" in next(iter(done.failures.values()))
     assert not (out / "2.laz").exists() and done.done_count == 5
 
 

@@ -126,7 +126,7 @@ def test_points_of_a_cloud_lie_where_scale_and_offset_say(monkeypatch):
     ("box", "polygons", "word"),
     [
         ((0, 0, 0, 1), (), "XMIN below XMAX"),
-        ((0, 2, 1, 1), (), "XMIN below XMAX and YMIN below YMAX, not 0 2 1 1"),
+        ((0, 2, 1, 1), (), "XMIN .* YMAX, not 0 2 1 1"),
         ((0, 0, float("nan"), 1), (), "XMIN YMIN XMAX YMAX"),
         (None, (), "holds no polygon"),
         (None, ((),), "holds no polygon"),
@@ -193,7 +193,7 @@ def test_boundaries_are_read(name, text, expected, tmp_path):
         ("a.geojson", geojson("Polygon", coordinates=3), "Cannot read"),
         ("a.geojson", geojson("FeatureCollection", features=[]), "holds no polygon"),
         ("a.geojson", geojson("Polygon", coordinates=[]), "holds no polygon"),
-        ("a.wkt", "POLYGON ((0 0, 1 0, 1 1))", "is WKT, which is not read"),
+        ("a.wkt", "POLYGON ((0 0, 1 0, 1 1))", "is WKT"),
         ("b.geojson", None, "b.geojson does not exist"),
     ],
 )

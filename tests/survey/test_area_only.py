@@ -90,7 +90,7 @@ def test_of_many_files_those_outside_are_not_written(inputs, tmp_path):
     assert (summary.done_count, summary.tile_count) == (4, 4) and not summary.failures
     assert summary.point_count == in_area(laspy.read(inputs / "all.laz")).sum()
     assert summary.ground_count == (laspy.read(one).classification == 2).sum()
-    assert "2 files are not written: they have no points to write in the area." in progress.infos
+    assert any("2 files are not written" in text for text in progress.infos)
 
 
 def test_a_file_within_the_bounds_but_without_a_point_is_not_written(inputs, tmp_path):
@@ -156,12 +156,12 @@ def test_an_area_that_meets_no_point_is_told(inputs, tmp_path):
     elsewhere = EAST + 5000.0, NORTH, EAST + 5100.0, NORTH + 100.0
     for source in (inputs / "one.laz", [inputs / "in"]):
         for only in (True, False):
-            with pytest.raises(BareEarthError, match="Give the area in the CRS of the points"):
+            with pytest.raises(BareEarthError, match="area in the CRS"):
                 classify(source, tmp_path / "out.laz", extent=elsewhere, area_only=only, **FAST)
     # Between the files' points, though within their bounds.
     x, y, _ = strip(12_000, 300.0, 150.0)[0] / 100
     gap = EAST + x + 0.002, NORTH + y + 0.002, EAST + x + 0.008, NORTH + y + 0.008
-    with pytest.raises(BareEarthError, match="None of the files has points to write"):
+    with pytest.raises(BareEarthError, match="None of the files has points"):
         classify([inputs / "in"], tmp_path / "many", extent=gap, area_only=True, **FAST)
     progress = Heard()
     classify([inputs / "in"], tmp_path / "all", extent=gap, progress=progress, **FAST)
@@ -171,7 +171,7 @@ def test_an_area_that_meets_no_point_is_told(inputs, tmp_path):
 def test_the_area_alone_needs_an_area(inputs, tmp_path, capsys):
     words = [str(inputs / "one.laz"), str(tmp_path / "out.laz"), "--area-only"]
     assert main(["classify", *words]) != 0
-    assert "Give an extent or a boundary" in capsys.readouterr().err
+    assert "extent or a boundary" in capsys.readouterr().err
     assert not list(tmp_path.iterdir())
 
 
@@ -184,7 +184,7 @@ def test_the_command_writes_the_area_alone(inputs, tmp_path, capsys):
     for source, target in (("one.laz", "one.laz"), ("in", "many")):
         files = [str(inputs / source), str(tmp_path / target)]
         assert main(["classify", *files, *words, "--verbose"]) == 0
-        assert "outside of the area are left out" in capsys.readouterr().err or source == "in"
+        assert "outside of the area" in capsys.readouterr().err or source == "in"
     one = points_of([tmp_path / "one.laz"])
     assert np.array_equal(points_of(finished(tmp_path / "many")), one)
     assert len(one) == in_area(laspy.read(inputs / "all.laz")).sum()
@@ -204,7 +204,7 @@ def test_corrections_that_meet_no_point_are_told_once(inputs, tmp_path):
         for number, source in enumerate((inputs / "one.laz", [inputs / "in"])):
             progress, out = Heard(), tmp_path / f"{count}-{number}.laz"
             classify(source, out, method="slope", corrections=known, progress=progress)
-            told = [text for text in progress.warnings if "polygons of the corrections" in text]
+            told = [text for text in progress.warnings if "the corrections" in text]
             assert len(told) == count
 
 

@@ -38,7 +38,7 @@ def test_both_orders_of_an_extent_are_the_same_area(scene, tmp_path, words):
     assert code == 0 and ground.sum() > 300
     assert (x[ground].min(), x[ground].max()) == pytest.approx((10, 30), abs=1)
     assert (y[ground].min(), y[ground].max()) == pytest.approx((20, 50), abs=1)
-    assert ("is taken as XMIN XMAX YMIN YMAX" in told) == (words.split()[1] == "500030")
+    assert ("as XMIN XMAX YMIN YMAX" in told) == (words.split()[1] == "500030")
 
 
 def test_where_x_is_larger_than_y_only_one_order_is_valid(tmp_path):
@@ -51,7 +51,7 @@ def test_where_x_is_larger_than_y_only_one_order_is_valid(tmp_path):
     las = laspy.read(tmp_path / "o.laz")
     ground = np.asarray(las.classification) == 2
     assert np.asarray(las.y)[ground].max() == pytest.approx(180_050, abs=1)
-    assert any("is taken as XMIN XMAX YMIN YMAX" in text for text in progress.warnings)
+    assert any("as XMIN XMAX YMIN YMAX" in text for text in progress.warnings)
 
 
 @pytest.mark.parametrize(
@@ -68,29 +68,27 @@ def test_an_extent_of_rasters(scene, tmp_path, words):
     ]
     code, _, told = said("terrain", scene, *given)
     assert code == 0 and heights_of(tmp_path / "o.tif").shape == (30, 20)
-    assert ("is taken as XMIN XMAX YMIN YMAX" in told) == (words.split()[1] == "500030")
+    assert ("as XMIN XMAX YMIN YMAX" in told) == (words.split()[1] == "500030")
 
 
 def test_a_reversed_extent_is_not_read_in_an_order_that_does_not_fit(scene, tmp_path):
     words = ["--extent", "500030", "5500010", "500010", "5500030"]
     code, _, told = said("classify", scene, tmp_path / "o.laz", *words)
-    assert code == 1 and "not 500030 5500010 500010 5500030" in told
+    assert code == 1 and "500030 5500010 500010 5500030" in told
 
 
 def test_a_window_to_compare_settings_in_the_order_of_qgis(scene, tmp_path):
     words = ["--extent", "500010", "500030", "5500020", "5500050"]
     words += ["--settings", "slope:whitebox", "grid-minimum:paper"]
     code, _, told = said("compare-settings", scene, tmp_path / "o.html", *words)
-    assert code == 0 and "is taken as XMIN XMAX YMIN YMAX" in told
+    assert code == 0 and "as XMIN XMAX YMIN YMAX" in told
 
 
 def test_an_extent_that_fits_in_no_order_is_refused(scene, tmp_path):
-    with pytest.raises(
-        BareEarthError, match="reaches far beyond the points, and in the order XMIN"
-    ):
+    with pytest.raises(BareEarthError, match=r"beyond the points.* XMIN"):
         extent = (400_010, 400_030, 5_600_000, 5_600_050)
         bare_earth.classify(scene, tmp_path / "o.laz", extent=extent)
-    with pytest.raises(BareEarthError, match="must be XMIN YMIN XMAX YMAX"):
+    with pytest.raises(BareEarthError, match="XMIN YMIN XMAX YMAX"):
         bare_earth.classify(scene, tmp_path / "o.laz", extent=(3, 2, 1, 0))
 
 

@@ -105,7 +105,7 @@ def test_a_broken_file_stops_nothing_and_is_told(las):
 def test_nothing_that_can_be_read_is_an_error(las):
     for number in range(2):
         (las.folder / f"{number}.las").write_bytes(b"PK")
-    with pytest.raises(BareEarthError, match=r"None of the 2 files .* not a LAS or LAZ file"):
+    with pytest.raises(BareEarthError, match=r"the 2 files .* not a LAS or LAZ"):
         open_survey([las.folder])
     with pytest.raises(BareEarthError, match=r"0\.las is not a LAS"):
         open_survey([las.folder / "0.las"])
@@ -120,14 +120,14 @@ def test_nothing_that_can_be_read_is_an_error(las):
 def test_a_table_of_points_is_to_be_converted(tmp_path, name, text):
     path = tmp_path / name
     path.write_text(text)
-    with pytest.raises(BareEarthError, match=r"is a table, not a point cloud\. Convert its points"):
+    with pytest.raises(BareEarthError, match="is a table"):
         find_files(path)
 
 
 def test_a_list_of_files_that_are_missing_is_no_table(tmp_path):
     path = tmp_path / "files.txt"
     path.write_text("tile 500 5500.laz\n568 5931 2.laz\n")
-    with pytest.raises(BareEarthError, match=r"lists .*tile 500 5500\.laz, which does not exist"):
+    with pytest.raises(BareEarthError, match=r"tile 500 5500\.laz.* not exist"):
         find_files(path)
 
 
@@ -163,7 +163,7 @@ def test_tiles_in_different_crs_are_refused(las, other, told):
     with pytest.raises(BareEarthError, match="not in the same CRS") as error:
         open_survey([las.folder])
     assert told is None or told in str(error.value)
-    assert "site in metre, height metre: a.las" in str(error.value)
+    assert "site in metre, height metre: a" in str(error.value)
 
 
 def test_one_crs_written_in_two_ways_is_one(las):
@@ -196,7 +196,7 @@ def test_heights_of_another_datum_or_unit_are_refused_and_a_crs_helps(las, other
     one = heights("NZVD2016 height", "New Zealand Vertical Datum 2016", code="1169")
     tile(las, "b.las", 100, wkt=one)
     tile(las, "c.las", 200, wkt=other)
-    with pytest.raises(BareEarthError, match="heights of the files are not in the same") as error:
+    with pytest.raises(BareEarthError, match="heights of the files") as error:
         open_survey([las.folder])
     told = str(error.value)
     assert "site + NZVD2016 height in metre, height metre: b.las" in told and "c.las" in told
@@ -218,7 +218,7 @@ def test_a_datum_that_is_not_stated_or_named_differently_is_told(las):
     tile(las, "d.las", 300, wkt=heights("Geoid 2016", "our geoid"))
     open_survey([las.folder], progress=heard)
     (warning,) = heard.warnings
-    assert "NZVD2016 height; others name it Geoid 2016: d.las" in warning
+    assert "NZVD2016 height" in warning and "Geoid 2016: d.las" in warning
 
 
 def test_files_with_a_placeholder_for_their_datum_are_joined_and_told(las):
@@ -264,7 +264,7 @@ def test_the_same_tile_twice_is_told(las):
     tile(las, "b.laz")
     heard = Heard()
     open_survey([las.folder], progress=heard)
-    assert any("a.las and b.laz have the same extent" in text for text in heard.warnings)
+    assert any("a.las and b.laz" in text and "extent" in text for text in heard.warnings)
 
 
 def test_a_copy_beside_a_file_of_a_folder_is_left_out_and_it_is_told(las):
@@ -323,7 +323,7 @@ def test_files_outside_of_the_folder_of_their_list_are_told(las):
     write_vpc(vpc, [inside, outside])
     heard = Heard()
     assert len(open_survey([vpc], progress=heard).tiles) == 2
-    assert [text for text in heard.warnings if f"The first is {outside.resolve()}." in text]
+    assert [text for text in heard.warnings if f"first is {outside.resolve()}" in text]
     write_vpc(las.folder / "all.vpc", [inside, outside])
     heard = Heard()
     open_survey([las.folder / "all.vpc"], progress=heard)

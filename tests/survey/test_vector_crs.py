@@ -117,7 +117,7 @@ def test_points_that_wait_on_disk_are_no_exception(cloud, tmp_path, is_near):
     if is_near:
         assert highest(cloud, tmp_path / "a.tif", **options) < 50.1
     else:
-        with pytest.raises(BareEarthError, match="lies in the polygons without ground"):
+        with pytest.raises(BareEarthError, match="polygons without ground"):
             highest(cloud, tmp_path / "a.tif", **options)
     assert any("wait in a temporary file" in text for text in progress.infos)
 
@@ -162,7 +162,7 @@ def test_polygons_outside_of_the_points_are_the_same_error(cloud, tmp_path, caps
     command = ["classify", str(cloud), target, "--dtm", str(tmp_path / "o.tif")]
     assert main([*command, f"--{option}", str(path)]) == 1
     text = capsys.readouterr().err
-    assert "in.laz lies in the " in text and "the points lie in x 500000" in text
+    assert "in.laz lies in the " in text and "points lie in x 500000" in text
     assert "x 505040 to 505080" in text and "in the CRS of the points" in text
     assert not list(tmp_path.glob("o.*"))
 
@@ -172,7 +172,7 @@ def test_lines_outside_of_the_points_are_the_same_error(cloud, tmp_path, capsys,
     path = geojson(tmp_path / "a.geojson", moved(FAR, "EPSG:4326"), kind="LineString")
     assert main(["terrain", str(cloud), "--dtm", str(tmp_path / "o.tif"), f"--{option}", str(path)])
     text = capsys.readouterr().err
-    assert f"lies within 10 m of the {option}" in text and "the points lie in x 500000" in text
+    assert f"within 10 m of the {option}" in text and "points lie in x 500000" in text
     assert not list(tmp_path.glob("o.*"))
 
 
@@ -190,7 +190,7 @@ def test_geometry_may_lie_in_one_of_many_files(tmp_path, capsys):
     with rasterio.open(tmp_path / "o.tif") as raster:
         assert raster.read(1, masked=True).max() < 50.1
     assert main([*command, str(far)]) == 1
-    assert "No point of the files lies in the polygons without ground" in capsys.readouterr().err
+    assert "polygons without ground" in capsys.readouterr().err
 
 
 @pytest.mark.rest
@@ -208,7 +208,7 @@ def test_a_river_that_meets_no_water_is_told(cloud, tmp_path):
     ):  # fmt: skip
         progress = Heard()
         highest(cloud, tmp_path / "a.tif", progress=progress, rivers=rivers, water=polygons)
-        told = any("Rivers that meet no polygon of water" in text for text in progress.warnings)
+        told = any("Rivers" in text and "water" in text for text in progress.warnings)
         assert told is is_told
 
 
@@ -227,7 +227,7 @@ def test_without_a_library_one_sentence_tells_what_to_install(cloud, tmp_path, m
 
 def test_a_crs_that_is_not_known_is_one_sentence(cloud, tmp_path):
     path = geojson(tmp_path / "a.geojson", CORNERS, "EPSG:999999")
-    with pytest.raises(BareEarthError, match=r"a\.geojson states is not known"):
+    with pytest.raises(BareEarthError, match=r"a\.geojson .* not known"):
         highest(cloud, tmp_path / "a.tif", no_ground=path)
 
 
@@ -238,9 +238,7 @@ def test_a_layer_of_several_must_be_named(cloud, tmp_path):
     by_library(path, CORNERS[:2], UTM, "LineString", layer="lines", append=True)
     target = tmp_path / "a.tif"
     highest(cloud, target, breaklines=path)  # of lines there is one layer
-    with pytest.raises(
-        BareEarthError, match=r"polygons in the layers huts, ponds.*\|layername=huts"
-    ):
+    with pytest.raises(BareEarthError, match=r"huts, ponds.*\|layername=huts"):
         highest(cloud, target, no_ground=path)
     assert highest(cloud, target, no_ground=f"{path}|layername=huts") < 50.1
     with pytest.raises(BareEarthError, match="has no layer roads"):

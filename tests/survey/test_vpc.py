@@ -1,5 +1,6 @@
 import importlib.util
 import json
+import re
 import struct
 from urllib.request import pathname2url
 
@@ -95,7 +96,7 @@ def test_without_a_place_on_the_globe_the_crs_is_left_out(las, code, monkeypatch
     (item,) = content["features"]
     assert item["properties"]["proj:wkt2"] == ""
     assert item["geometry"] == item["properties"]["proj:geometry"]
-    assert any("does not state the CRS of 1 of its 1 files" in text for text in heard.warnings)
+    assert any("CRS of 1 of its 1 files" in text for text in heard.warnings)
 
 
 def test_extra_bytes_are_dimensions(las):
@@ -157,7 +158,7 @@ def test_the_files_of_a_folder_do_not_include_an_overview_of_them(las):
     "href", ["https://host/a.laz", "S3://bucket/a.laz", "/vsicurl/https://host/a.laz"]
 )
 def test_files_elsewhere_are_refused(las, href):
-    with pytest.raises(BareEarthError, match="is not on this computer"):
+    with pytest.raises(BareEarthError, match="not on this computer"):
         read_vpc(vpc_of(las, href))
 
 
@@ -165,9 +166,9 @@ def test_files_elsewhere_are_refused(las, href):
 def test_an_entry_that_is_a_folder_is_named(las, href):
     las.make("a.las")
     path = vpc_of(las, "./a.las", href)
-    with pytest.raises(BareEarthError, match="another drive of Windows") as caught:
+    with pytest.raises(BareEarthError, match="drive of Windows") as caught:
         read_vpc(path)
-    assert f'The entry number 2 of {path} names no file, but "{href}".' in str(caught.value)
+    assert re.search(rf'\b2 of {re.escape(str(path))} .*"{re.escape(href)}"', str(caught.value))
     content = json.loads(path.read_text())
     content["features"][1]["id"] = "t01"
     path.write_text(json.dumps(content))

@@ -68,7 +68,7 @@ def test_a_rectangle_that_is_none_is_refused(las):
 def test_a_wrong_header_is_told_and_hides_points_only_where_it_is_trusted(las):
     source, heard = with_extent(las.make(count=400), 1, 2, 3, 4), Heard()
     assert read_window(source, BOX, heard).count == 70
-    assert any("states a smaller extent than its points have" in text for text in heard.warnings)
+    assert any("smaller extent" in text for text in heard.warnings)
     assert read_window(source, BOX, trust_header=True).count == 0
     assert read_window(with_extent(source, 399_990, 5e6, 400_009, 5_000_019), BOX).count == 70
 

@@ -1,6 +1,7 @@
 """Files of a survey without ground: each is written and told; only a survey of such files fails."""
 
 import json
+import re
 
 import laspy
 import numpy as np
@@ -92,7 +93,7 @@ def test_of_the_ground_alone_files_without_any_are_named_and_not_written(roof, t
     assert not summary.failures and list(bytes_of(out)) == ["t00.laz"]
     (told,) = (text for text in progress.warnings if "not written" in text)
     assert told.startswith("2 files have no ground: first.laz (2,000), water.laz (2,000). Their")
-    with pytest.raises(BareEarthError, match=r"^None of the 2 files has ground\. "):
+    with pytest.raises(BareEarthError, match="None of the 2 files has ground"):
         classify(files[1:], out, **FAST, ground_only=True)
 
 
@@ -105,31 +106,30 @@ def test_an_area_tells_of_its_points_only(roof, tmp_path):
         summary = classify(roof, out, **area, area_only=only, progress=progress)
         assert not summary.failures and "t11.laz" in bytes_of(out)
         (told,) = (text for text in progress.warnings if "no ground" in text)
-        assert told.startswith("t11.laz has no ground in the area: its ")
-        assert told.endswith(" points there are written as not ground.")
-        count = int(told.split(" its ")[1].split(" points")[0].replace(",", ""))
+        assert told.startswith("t11.laz has no ground in the area") and "not ground" in told
+        count = int(re.search(r"([\d,]+) points", told).group(1).replace(",", ""))
         assert 200 < count < 800 and (only is False) == (count < len(classes_of(out / "t11.laz")))
 
 
 @pytest.mark.parametrize("name", ["water.laz", "withheld.laz", "first.laz"])
 def test_a_survey_without_any_ground_is_refused_with_the_reason(name, roof, tmp_path):
-    with pytest.raises(BareEarthError, match=f"^{name} has no ground.* Choose other classes"):
+    with pytest.raises(BareEarthError, match=f"^{name} has no ground.* other classes"):
         classify([roof / name], tmp_path / "out", **FAST)
     assert not finished(tmp_path / "out") and not (tmp_path / "out" / "classified.vpc").exists()
     both = [roof / name, roof / ("first.laz" if name != "first.laz" else "water.laz")]
-    with pytest.raises(BareEarthError, match=r"^None of the 2 files has ground\. No point takes"):
+    with pytest.raises(BareEarthError, match=r"^None of the 2 files has ground.* No point"):
         classify(both, tmp_path / "new", **FAST)
     assert not (tmp_path / "new").exists()
 
 
-@pytest.mark.rest(but="water_classes-written with unchanged classes")
+@pytest.mark.rest(but="water_classes-unchanged")
 @pytest.mark.parametrize(
     ("tool", "fate"),
     [
-        (heights, "measured above the ground of other files"),
-        (above_ground, "classified above the ground of other files"),
-        (key_points, "written with unchanged classes"),
-        (water_classes, "written with unchanged classes"),
+        (heights, "measured"),
+        (above_ground, "classified"),
+        (key_points, "unchanged"),
+        (water_classes, "unchanged"),
     ],
 )
 def test_other_tools_write_files_without_ground_and_tell(tool, fate, classified, tmp_path):
@@ -140,23 +140,21 @@ def test_other_tools_write_files_without_ground_and_tell(tool, fate, classified,
     files = [folder / f"t{column}{row}.laz" for column in range(3) for row in range(3)]
     summary = tool(files, tmp_path / "out", **more, progress=progress)
     assert summary.done_count == 9 and not summary.failures
-    told = f"t11.laz has no ground points of class 2: its 2,000 points are {fate}."
-    assert [text for text in progress.warnings if "t11" in text] == [told]
+    (told,) = (text for text in progress.warnings if "t11" in text)
+    assert re.search(rf"^t11\.laz has no ground.* class 2\b.* 2,000 .*{fate}", told)
     written = laspy.read(tmp_path / "out" / "t11.laz")
     assert len(written.points) == 2000
     if tool is heights:
         assert np.percentile(written["HeightAboveGround"], 5) > 8.0
     if tool is above_ground:
         assert np.mean(written.classification == 6) > 0.95
-    with pytest.raises(
-        BareEarthError, match=r"^t11\.laz has no ground points of class 2\. Classify"
-    ):
+    with pytest.raises(BareEarthError, match=r"^t11\.laz .*no ground.* class 2\b"):
         tool([folder / "t11.laz"], tmp_path / "alone", **more)
     assert not finished(tmp_path / "alone")
 
 
 def test_a_survey_without_any_ground_is_refused_in_the_plural(roof, tmp_path):
-    with pytest.raises(BareEarthError, match=r"^the files have no ground points: none is of"):
+    with pytest.raises(BareEarthError, match=r"^the files have no ground"):
         water(roof, tmp_path / "water.geojson")
 
 
@@ -165,9 +163,8 @@ def test_points_far_from_any_ground_have_no_height_and_are_told(classified, tmp_
     summary = heights([classified[0] / "t00.laz", far], tmp_path / "out", progress=progress)
     assert not summary.failures
     assert np.isnan(laspy.read(tmp_path / "out" / "far.laz")["HeightAboveGround"]).all()
-    assert "far.laz: 2,000 of 2,000 points have no height (NaN): no ground is near." in (
-        progress.warnings
-    )
+    told = [text for text in progress.warnings if text.startswith("far.laz: ")]
+    assert len(told) == 1 and re.search(r"2,000 of 2,000 .*\bNaN\b", told[0])
 
 
 def test_a_raster_need_not_cover_all_files(classified, tmp_path):
@@ -179,7 +176,7 @@ def test_a_raster_need_not_cover_all_files(classified, tmp_path):
     assert np.isnan(laspy.read(tmp_path / "out" / "t22.laz")["HeightAboveGround"]).all()
     (told,) = (text for text in progress.warnings if "have no height (NaN)" in text)
     assert "t22.laz" in told
-    with pytest.raises(BareEarthError, match="no value at any point of the files"):
+    with pytest.raises(BareEarthError, match=r"no value .* the files"):
         heights(files[1:], tmp_path / "alone", dtm=dtm)
 
 
