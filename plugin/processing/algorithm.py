@@ -31,6 +31,7 @@ from ...algorithms.remote.cache import addresses_named
 from ...algorithms.tools import file_tool, map_tool, point_tool
 from ...algorithms.tools.declaration import Composition, MapTool, Tool, with_note
 from ...algorithms.tools.ground.dialogs import METHOD_TOOLS
+from ...algorithms.tools.ground.output import PointOutput
 from ...algorithms.tools.listing import FILE_TOOLS, POINT_TOOLS
 from .. import compat
 from ..help_pages import address_of
@@ -48,7 +49,7 @@ from .remote import add_remote
 from .request import Request, Resolved
 from .resolving import PARTS, download, resolve, resolve_files, resolve_rest
 from .runs import PastRun, is_remembered, plain_values, remember
-from .shapes import check_area_only
+from .shapes import has_area
 from .showing import Results, ToolRun
 from .tool_inputs import KINDS
 
@@ -93,7 +94,7 @@ class ToolAlgorithm(QgsProcessingAlgorithm):
     def check(self, request: Request) -> Resolved:
         """Check the values before a run; raise BareEarthError to refuse them."""
         sets = self.sets_of(request)
-        check_area_only(request, sets)
+        PointOutput.among(sets).check_area(has_area(request))
         found = resolve_files(request, self.inputs, sets)
         check_outputs(request, found.points)
         return found

@@ -117,7 +117,7 @@ def source_of(request: Request, name: str) -> Path | Remote:
     """Return what is in a `PointCloudInput` that is not empty, without loading it as a layer."""
     value = request.parameters.get(name)
     if isinstance(value, QgsMapLayer):
-        return _of_layer(value)
+        return _of_layer(value, request)
     text = (str(value) if isinstance(value, Path) else "") or request.read("String", name)
     if not text:
         raise Refusal(mark("Choose a point cloud."))
@@ -133,19 +133,22 @@ def _named(text: str, request: Request) -> Path | Remote:
     # Only a layer of the project: of other texts, QGIS would make one, and ask the server.
     layer = request.layer_named(text)
     if layer is not None:
-        return _of_layer(layer)
+        return _of_layer(layer, request)
     if is_address(text):
         return remote_at(text)
     raise Refusal(_NOWHERE, text)
 
 
-def _of_layer(layer: QgsMapLayer) -> Path | Remote:
+def _of_layer(layer: QgsMapLayer, request: Request) -> Path | Remote:
+    """Return what a layer shows, and warn of its filter, which QGIS alone applies."""
     if not isinstance(layer, QgsPointCloudLayer):
         text = mark("{} is not a point cloud. Choose a point cloud layer, or a .las or .laz file.")
         raise Refusal(text, layer.name())
     if has_edits(layer):
         text = mark('The layer "{}" is being edited. Save or discard the edits first.')
         raise Refusal(text, layer.name())
+    if filter_of(layer):
+        request.progress.warning("The layer's filter is not applied: all points are read.")
     provider = layer.dataProvider().name() if layer.dataProvider() else ""
     parts = QgsProviderRegistry.instance().decodeUri(provider, layer.source())
     path = parts.get("path") or layer.source()
@@ -187,7 +190,7 @@ def terrain_of(request: Request, name: str) -> tuple[str, str]:
         if layer.providerType() != "gdal":
             raise Refusal(mark("{} is not a file. Export it as GeoTIFF first."), layer.name())
         return layer.source(), layer.name()
-    source = local(_named(text, request) if layer is None else _of_layer(layer))
+    source = local(_named(text, request) if layer is None else _of_layer(layer, request))
     return str(source), name_of(source)
 
 
@@ -229,14 +232,6 @@ def remember_origin(output: str, name: str) -> None:
 def names_of(sources: Sequence[Path | Remote]) -> str:
     """Return a name for the inputs of a run."""
     return (tr("{} and others") if sources[1:] else "{}").format(name_of(sources[0]))
-
-
-def ignored_filter(request: Request, name: str) -> str:
-    """Return the filter of the input layer, which is ignored; empty without a filter."""
-    layer = request.parameters.get(name)
-    if not isinstance(layer, QgsMapLayer):
-        layer = request.layer_named(request.read("String", name))
-    return filter_of(layer)
 
 
 def _filter(endings: str) -> str:

@@ -19,7 +19,6 @@ from ..i18n import mark
 from ..styles.loaded import in_main_thread
 from .cloud_crs import CloudCrs, text_of
 from .feedback import Refusal
-from .inputs import ignored_filter
 from .one_run import refuse_two_runs
 from .remote import LIMIT
 from .request import Request, Resolved
@@ -67,10 +66,6 @@ def resolve_files(
 def resolve(request: Request, declared: Sequence[Input], sets: Sequence[ParameterSet]) -> Resolved:
     """Return what a run works with; in the main thread, since layers of the project are read."""
     found = resolve_files(request, declared, sets)
-    for one in declared:
-        is_read = one.kind in ("cloud", "clouds") and not one.optional
-        if is_read and ignored_filter(request, one.field_name):
-            request.progress.warning("The layer's filter is not applied: all points are read.")
     # The CRS of remote points is not known before the download.
     return found if found.far else _read(request, found, BEFORE)
 

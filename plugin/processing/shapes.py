@@ -18,11 +18,9 @@ from qgis.core import (
     QgsVectorLayer,
 )
 
-from ...algorithms.core.parameters import ParameterSet
 from ...algorithms.core.points import Box
 from ...algorithms.survey.area import Area, Polygon
 from ...algorithms.survey.shapes import Shapes
-from ...algorithms.tools.ground.output import PointOutput
 from .. import compat
 from ..i18n import mark
 from ..styles.loaded import file_of, filter_of, has_edits
@@ -144,13 +142,6 @@ def _area_in_own_crs(request: Request) -> Area:
         shape = request.read("ExtentGeometry", "EXTENT", crs)  # which owns what it gives out
         polygons = [_rings_of(shape.constGet())]
     return Area(None, Shapes(polygons, text_of(crs), "The area"))
-
-
-def check_area_only(request: Request, chosen: Sequence[ParameterSet]) -> None:
-    """Refuse to write only the points in the area if there is no area."""
-    for values in chosen:
-        if isinstance(values, PointOutput):
-            values.check_area(has_area(request))
 
 
 def file_for_command(request: Request, name: str) -> str:
