@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Iterable, Iterator, NamedTuple
+from typing import Iterable, Iterator
 
 from qgis.core import QgsApplication, QgsProcessingParameterDefinition, QgsProject
 
@@ -34,36 +34,16 @@ _BY_HAND = tuple(
 _AFTERWARDS = 2.0
 
 
-class _Made(NamedTuple):
-    """An input that a run of the project made."""
-
-    path: str
-    chain: list[PastRun]  # the runs that led to it, as `chain_to` returns them
-
-    def name(self, project: QgsProject) -> str:
-        """The name of its layer, or of its file."""
-        layers = sources_of(project, [Path(self.path)])
-        return project.mapLayer(layers[0].layer).name() if layers else self.path
-
-    @property
-    def run(self) -> str:
-        """The run in words."""
-        algorithm = QgsApplication.processingRegistry().algorithmById(self.chain[-1].algorithm)
-        source = self.chain[0].path("INPUT") or self.chain[0].path("INPUT_FOLDER")
-        return f"{algorithm.displayName()}, {Path(source).name}"
-
-
 def refuse_two_runs(paths: Iterable[str], project: QgsProject) -> None:
     """Refuse files if it is known that runs with another ground made them."""
-    made = list(_made(paths, runs_of(project)))
+    made = [*_made(paths, runs_of(project))]
     for other in made[1:]:
-        if _is_other(made[0].chain, other.chain):
-            names = made[0].name(project), made[0].run, other.name(project), other.run
-            raise Refusal(_OTHERS, *names)
+        if _is_other(made[0][1], other[1]):
+            raise Refusal(_OTHERS, *_in_words(*made[0], project), *_in_words(*other, project))
 
 
-def _made(paths: Iterable[str], runs: list[PastRun]) -> Iterator[_Made]:
-    """Yield the inputs that runs made that classified their points."""
+def _made(paths: Iterable[str], runs: list[PastRun]) -> Iterator[tuple[str, list[PastRun]]]:
+    """Yield the files that runs made that classified their points, and the runs that led there."""
     for path in filter(None, paths):
         run, file = maker_of(path, runs), Path(path)
         # Another program may have written the file since then.
@@ -72,7 +52,16 @@ def _made(paths: Iterable[str], runs: list[PastRun]) -> Iterator[_Made]:
         chain = chain_to(path, runs)
         # Of other points it is not known where their ground comes from.
         if chain[0].can_be_corrected:
-            yield _Made(path, chain)
+            yield path, chain
+
+
+def _in_words(path: str, chain: list[PastRun], project: QgsProject) -> tuple[str, str]:
+    """Return the name of a layer, or its file, and the run that made it."""
+    layers = sources_of(project, [Path(path)])
+    name = project.mapLayer(layers[0].layer).name() if layers else path
+    algorithm = QgsApplication.processingRegistry().algorithmById(chain[-1].algorithm)
+    source = chain[0].path("INPUT") or chain[0].path("INPUT_FOLDER")
+    return name, f"{algorithm.displayName()}, {Path(source).name}"
 
 
 def _is_other(first: list[PastRun], second: list[PastRun]) -> bool:

@@ -176,12 +176,12 @@ def point_cloud_formats() -> list[str]:
     return ["laz", "las", "copc.laz"]
 
 
-def cannot_show(path: str, when: str = "is") -> str:
+def cannot_show(path: str) -> str:
     """Return a line of the log on a point cloud that QGIS cannot show, with what it can."""
     hint = ""
     if compat.can_load("x.copc.laz") and not path.lower().endswith((".copc.laz", ".vpc")):
         hint = " QGIS shows files whose names end with .copc.laz."
-    return f"This QGIS cannot show such a file as a layer. It {when} at {path}.{hint}"
+    return f"This QGIS cannot show such a file as a layer. It is at {path}.{hint}"
 
 
 def do_not_load(context: QgsProcessingContext, paths: Iterable[str]) -> None:

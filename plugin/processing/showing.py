@@ -68,12 +68,10 @@ class ToolRun:
         """
         # Asked only in the thread of the work: QGIS loads the layers of its context.
         path = path_of(self.request, output)
-        if output.kind in CLOUDS and not isinstance(self.tool, (MapTool, Composition)):
-            if self.resolved.points.is_survey:
-                do_not_load(self.context, [path])
-                return str(Path(path).with_name(split_name(Path(path))[0]))
-            if not compat.can_load(path):
-                self.progress.info(cannot_show(path, "will be"))
+        is_folder = output.kind in CLOUDS and self.resolved.points.is_survey
+        if is_folder and not isinstance(self.tool, Composition):
+            do_not_load(self.context, [path])
+            return str(Path(path).with_name(split_name(Path(path))[0]))
         if path and output.needs and self.resolved.given[output.needs].value is None:
             do_not_load(self.context, [path])
             return ""
@@ -106,6 +104,8 @@ def _show_files(run: ToolRun, done: Any, paths: dict[str, str]) -> Results:
     for output in run.outputs:
         if path := paths[output.name]:
             results[output.field_name] = path
+            if output.kind in CLOUDS and not compat.can_load(path):
+                run.progress.info(cannot_show(path))
             if output.look:
                 run.looks[path] = layers.look_of(output.look, done)
             files = {} if output.files is None else output.files(Path(path), run.resolved.sets)
@@ -127,14 +127,8 @@ def _show_files(run: ToolRun, done: Any, paths: dict[str, str]) -> Results:
 
 def _show_points(run: ToolRun, done: Any, paths: dict[str, str]) -> Results:
     """Show the points that a tool wrote, and return the results."""
-    output, sets = paths["output"], run.resolved.sets
+    output, sets = done.vpc or paths["output"], run.resolved.sets
     run.progress.info(done.text)
-    if done.vpc:
-        output = done.vpc
-        if compat.can_load(output):
-            compat.load_point_cloud(output, run.context)
-        else:
-            run.progress.info(cannot_show(output))
     numbers = {
         name: _TOGETHER.get(name, sum)(getattr(file, name.lower()) for file in done.tiles)
         for name, _ in run.tool.numbers
@@ -143,12 +137,11 @@ def _show_points(run: ToolRun, done: Any, paths: dict[str, str]) -> Results:
     if run.tool.shows == "heights":
         is_z = any(getattr(values, "output_as", "") == "z" for values in sets)
         unit, attribute = done.tiles[0].unit_size, "Z" if is_z else HEIGHT_DIMENSION
-        run.looks[output] = layers.heights(attribute, numbers["MAXIMUM"], unit)
+        look = layers.heights(attribute, numbers["MAXIMUM"], unit)
     else:
-        run.looks[output] = layers.classes(done.class_counts, _TITLES[run.tool.shows])
-    if not compat.can_load(output):
-        first = (*GroundClasses.among(sets).ground_classes, GROUND)[0]
-        _show_class_raster(run, output, run.class_counts, first)
+        look = layers.classes(done.class_counts, _TITLES[run.tool.shows])
+    first = (*GroundClasses.among(sets).ground_classes, GROUND)[0]
+    _show_cloud(run, output, look, done.class_counts, first)
     return {"OUTPUT": output, **numbers}
 
 
@@ -200,32 +193,34 @@ def show_classified(
     hides: int = layers.CLOUD,
 ) -> None:
     """Show a classified point cloud, which may be virtual, with its classes, or the usual ones if
-    none are given, or a raster of them where QGIS cannot, with cells as in `_show_class_raster`.
+    none are given; the other arguments are those of `_show_cloud`.
     """
     classes = list(classes) or clouds.usual_classes(ground_class)
     is_virtual = cloud.endswith(".vpc")
     # At small scales QGIS shows outlines, and the terrain must be visible through these.
     is_hiding = not (is_virtual and hides == layers.CLOUD)
-    run.looks[cloud] = layers.classes(classes, hides=hides if is_hiding else 0)
+    look = layers.classes(classes, hides=hides if is_hiding else 0)
+    _show_cloud(run, cloud, look, [] if is_virtual else classes, ground_class, cells, hides)
+
+
+def _show_cloud(
+    run: ToolRun,
+    cloud: str,
+    look: layers.LayerLook,
+    classes: Iterable[int],
+    ground_class: int,
+    cells: tuple[float, bool] = (_USUAL_CELL, False),
+    hides: int = layers.CLOUD,
+) -> None:
+    """Show a point cloud, or where QGIS cannot, a raster of its classes, with cells of a size in
+    metres, or in units of the CRS.
+    """
+    run.looks[cloud] = look
     if compat.can_load(cloud):
-        if is_virtual:
+        if cloud.endswith(".vpc"):
             compat.load_point_cloud(cloud, run.context)
         return
     run.progress.info(cannot_show(cloud))
-    _show_class_raster(run, cloud, [] if is_virtual else classes, ground_class, hides, cells)
-
-
-def _show_class_raster(
-    run: ToolRun,
-    cloud: str,
-    classes: Iterable[int],
-    ground_class: int,
-    hides: int = layers.CLOUD,
-    cells: tuple[float, bool] = (_USUAL_CELL, False),
-) -> None:
-    """Show a raster of the classes of a cloud that QGIS cannot show, with cells of a size in
-    metres, or in units of the CRS.
-    """
     # It is made only if QGIS will load other layers, or a dialog shows the run: else nobody sees
     # it.
     if not (run.context.layersToLoadOnCompletion() or run.progress.is_of_dialog):
