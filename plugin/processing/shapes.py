@@ -6,7 +6,6 @@ from typing import Any, Iterator, Sequence
 
 import numpy as np
 from qgis.core import (
-    Qgis,
     QgsCoordinateReferenceSystem,
     QgsCurve,
     QgsCurvePolygon,
@@ -21,6 +20,7 @@ from qgis.core import (
 from ...algorithms.core.points import Box
 from ...algorithms.survey.area import Area, Polygon
 from ...algorithms.survey.shapes import Shapes
+from ...algorithms.tools.declaration import Input
 from .. import compat
 from ..i18n import mark
 from ..styles.loaded import file_of, filter_of, has_edits
@@ -29,7 +29,7 @@ from .feedback import Refusal
 from .request import Request
 
 AREA = "EXTENT", "BOUNDARY"  # the fields
-BOUNDARY = "BOUNDARY", "Boundary"  # field and label
+BOUNDARY = Input("boundary", "polygons", label="Boundary", advanced=True)
 
 
 def features_of(
@@ -42,7 +42,7 @@ def features_of(
     """Yield features of a layer, transformed to a CRS, with some attributes; errors name it."""
     if source is None:
         raise Refusal(mark('The layer "{}" cannot be read.'), label)
-    wanted = QgsFeatureRequest().setSubsetOfAttributes(attributes, source.fields())
+    wanted = QgsFeatureRequest().setSubsetOfAttributes(list(attributes), source.fields())
     wanted.setDestinationCrs(crs, request.context.transformContext())
     yield from source.getFeatures(wanted)
 
@@ -55,22 +55,20 @@ def box_of(request: Request, name: str, crs: CloudCrs) -> Box:
 
 def layer_shapes(
     request: Request,
-    name: str,
-    label: str,
+    declared: Input,
     crs: CloudCrs,
-    kind: Qgis.ProcessingSourceType = compat.POLYGONS,
     attributes: Sequence[str] = (),
     may_be_empty: bool = True,
 ) -> tuple[tuple[Any, Any], ...]:
-    """Return the polygons (rings, float64 (n, 2)) or lines (x, y, and z or NaN, (n, 3)) of the
-    layer in a field, in the CRS of the points, and attributes of each, by name.
+    """Return the polygons (rings, float64 (n, 2)) or lines (x, y, and z or NaN, (n, 3)) of a layer,
+    in the CRS of the points, and attributes of each, by name.
     """
     # Geometries of other kinds are not used; a layer with only these is refused, and an empty one
     # unless it may be empty.
-    source = request.read("Source", name)
-    shape, corners_of, refusal = _KINDS[kind]
+    source = request.read("Source", declared.field_name)
+    shape, corners_of, refusal = _KINDS[declared.kind]
     found, others = [], 0
-    for feature in features_of(source, label, crs.value, request, list(attributes)):
+    for feature in features_of(source, declared.label, crs.value, request, attributes):
         values = {name: feature[name] for name in attributes}
         values = {name: None if compat.is_null(one) else one for name, one in values.items()}
         for part in feature.geometry().constParts():
@@ -79,7 +77,7 @@ def layer_shapes(
             else:
                 others += 1
     if not found and (others or not may_be_empty):
-        raise Refusal(refusal, label)
+        raise Refusal(refusal, declared.label)
     return tuple(found)
 
 
@@ -96,11 +94,11 @@ def _line_of(line: QgsCurve) -> np.ndarray:
 
 # The class of a geometry of a kind, what returns its corners, and the message if it has none.
 _KINDS = {
-    compat.POLYGONS: (
+    "polygons": (
         QgsCurvePolygon, _rings_of,
         mark('The layer "{}" holds no polygon. Choose one that does.'),
     ),
-    compat.LINES: (
+    "lines": (
         QgsCurve, _line_of, mark('The layer "{}" holds no line. Choose one that does.')
     ),
 }  # fmt: skip
@@ -122,7 +120,7 @@ def area_of(request: Request, crs: CloudCrs) -> Area | None:
 
 
 def _boundary_of(request: Request, crs: CloudCrs) -> tuple[Polygon, ...]:
-    shapes = layer_shapes(request, *BOUNDARY, crs, may_be_empty=False)
+    shapes = layer_shapes(request, BOUNDARY, crs, may_be_empty=False)
     return tuple(rings for rings, _ in shapes)
 
 

@@ -51,7 +51,6 @@ from .shapes import BOUNDARY, area_of, box_of, file_for_command, layer_shapes
 # As names, so that widgets are imported only in dialogs, not in qgis_process.
 _ATTRIBUTE_WIDGET = f"{__package__}.layer_widgets.AttributeWidget"
 _RASTER_WIDGET = f"{__package__}.layer_widgets.RasterWidget"
-_LAYERS = {"lines": compat.LINES, "polygons": compat.POLYGONS}
 # Default and layer of the fields for attributes.
 _ATTRIBUTES = {
     "CORRECTIONS_FIELD": (CLASS_FIELD, "CORRECTIONS"), "Z_FIELD": (None, "CHECKPOINTS"),
@@ -129,10 +128,9 @@ def _layer(kind: object, field: Any = QgsProcessingParameterFeatureSource) -> Ca
 
 def _area_fields(declared: Input) -> Fields:
     extent = QgsProcessingParameterExtent("EXTENT", "Extent", None, True)
-    boundary = _layer(compat.POLYGONS)(*BOUNDARY, None, True)
     helps = help_of_area(declared.help)
     yield (_advanced(extent) if declared.advanced else extent), helps[0]
-    yield _advanced(boundary), helps[1]
+    yield from KINDS[BOUNDARY.kind].fields(replace(BOUNDARY, help=helps[1]))
 
 
 def _survey_fields(declared: Input) -> Fields:
@@ -262,7 +260,7 @@ def _corrections(request: Request, declared: Input, resolved: Resolved) -> Given
     file = file_for_command(request, name) if asked.lower() == CLASS_FIELD else ""
     if not file:
         _tell_missing(request, [declared.name], f', with the attribute "{CLASS_FIELD}"')
-    shapes = layer_shapes(request, name, "Corrections", resolved.crs, attributes=fields)
+    shapes = layer_shapes(request, GROUPS[declared.kind][0], resolved.crs, fields)
     polygons, rows = zip(*shapes) if shapes else ((), ())
     classes, answers = (tuple(value_of(row, one) for row in rows) for one in (of_class, answer))
     found = Corrections(polygons, classes, answers, tuple(map(plain_values, rows)))
@@ -273,8 +271,8 @@ def _constraints(request: Request, declared: Input, resolved: Resolved) -> Given
     given = [part for part in GROUPS[declared.kind] if not request.is_empty(part.field_name)]
     shapes: dict[str, Any] = {}  # of lines or of polygons
     for part in given:
-        field = part.field_name, part.label, resolved.crs, _LAYERS[part.kind]
-        shapes[part.name] = tuple(corners for corners, _ in layer_shapes(request, *field))
+        found = layer_shapes(request, part, resolved.crs)
+        shapes[part.name] = tuple(corners for corners, _ in found)
     files = {part.name: file_for_command(request, part.field_name) for part in given}
     if missing := [name for name, file in files.items() if not file]:
         _tell_missing(request, missing)
@@ -290,8 +288,7 @@ def _polygons(request: Request, declared: Input, resolved: Resolved) -> GivenInp
     file = file_for_command(request, name)
     if not file:
         _tell_missing(request, [declared.name])
-    field = name, declared.label, resolved.crs
-    shapes = layer_shapes(request, *field, may_be_empty=declared.may_be_empty)
+    shapes = layer_shapes(request, declared, resolved.crs, may_be_empty=declared.may_be_empty)
     return GivenInput(declared.of(tuple(rings for rings, _ in shapes)), {declared.name: file})
 
 

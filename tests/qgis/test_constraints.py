@@ -22,6 +22,7 @@ from bare_earth import BareEarthError
 from bare_earth.algorithms.classes.corrections import read_corrections
 from bare_earth.algorithms.crs.system import Crs
 from bare_earth.algorithms.survey.shapes import Place
+from bare_earth.algorithms.tools.input_groups import GROUPS
 from bare_earth.plugin.processing.cloud_crs import CloudCrs
 from bare_earth.plugin.processing.request import Request
 from bare_earth.plugin.processing.shapes import layer_shapes
@@ -128,7 +129,7 @@ def test_curves_holes_and_collections_are_used_and_an_empty_layer_changes_nothin
     algorithm = QgsApplication.processingRegistry().createAlgorithmById("bareearth:slopefilter")
     context = QgsProcessingContext()
     context.setProject(QgsProject.instance())
-    field = "NO_GROUND", "No ground here", CloudCrs(scene.path)
+    field = GROUPS["constraints"][-1], CloudCrs(scene.path)
     ((rings, _),) = layer_shapes(Request(algorithm, {"NO_GROUND": mixed}, context), *field)
     assert len(rings) == 2 and len(rings[0]) > 50 and rings[1].shape == (4, 2)
     assert layer_shapes(Request(algorithm, {"NO_GROUND": empty}, context), *field) == ()
