@@ -344,7 +344,7 @@ def errors_for_qgis() -> Iterator[None]:
 
 
 def tool_algorithms() -> list[ToolAlgorithm]:
-    """Return the tools that have a dialog, except those that let others work."""
+    """Return the algorithms of all tools with a dialog, except compositions."""
     tools: list[Tool] = [*METHOD_TOOLS, map_tool("classify-tiles"), map_tool("terrain")]
     tools += [*map(point_tool, POINT_TOOLS), *map(file_tool, FILE_TOOLS)]
     return [ToolAlgorithm(tool) for tool in tools if tool.identifier]

@@ -111,8 +111,8 @@ def _value(request: Request, declaration: Declaration) -> object:
         given = value_of("" if compat.is_empty(given) else given, [OFF, ON])
         return given in (ON, True) if given != "" else declaration.default
     if name in request.parameters and (compat.is_null(given) or given == ""):
-        # The user emptied the field; parameterAs... would return the default. An emptied field that
-        # must have a value is refused, but for those that can be newer than a saved model.
+        # The user emptied the field; parameterAs... would return the default. None is refused later
+        # where a value is needed, except in fields that can be newer than a saved model.
         has_default = declaration.kind == "choice" or declaration.advanced
         return declaration.default if has_default and not declaration.optional else None
     if declaration.kind == "choice":

@@ -39,6 +39,8 @@ class PointCloudInput(QgsProcessingParameterPointCloudLayer):
     # QGIS itself accepts only files that it can load. Without its `pdal` provider, these do not
     # include .las and .laz; with it, QGIS would index the whole file first.
 
+    endings = "*.las *.laz *.LAS *.LAZ"
+
     def __init__(self, *arguments: object) -> None:
         super().__init__(*arguments)
         self.setMetadata({**self.metadata(), "widget_wrapper": {"class": _WIDGET}})
@@ -73,14 +75,13 @@ class PointCloudInput(QgsProcessingParameterPointCloudLayer):
 
     def createFileFilter(self) -> str:
         """Return the file types for the button "..."; those of QGIS depend on the build."""
-        return _filter("*.las *.laz *.LAS *.LAZ")
+        return f"{tr('Point clouds')} ({self.endings});;{tr('All files')} (*.*)"
 
 
 class SurveyInput(PointCloudInput):
     """A point cloud layer, or any file or folder, such as a virtual point cloud or a list."""
 
-    def createFileFilter(self) -> str:
-        return _filter("*.las *.laz *.vpc *.txt *.LAS *.LAZ")
+    endings = "*.las *.laz *.vpc *.txt *.LAS *.LAZ"
 
 
 class TerrainInput(QgsProcessingParameterMapLayer):
@@ -170,7 +171,7 @@ def survey_of(request: Request) -> list[Path | Remote]:
 
 
 def clouds_of(request: Request) -> list[Path | Remote]:
-    """Return the point clouds and the folder in the fields of many files; these must exist."""
+    """Return what is in the fields of many files; files and folders must exist."""
     texts = [*request.read("FileList", "INPUT"), request.read("String", "INPUT_FOLDER")]
     paths = [_named(text, request) for text in texts if text]
     if not request.is_empty(REMOTE):
@@ -232,11 +233,6 @@ def remember_origin(output: str, name: str) -> None:
 def names_of(sources: Sequence[Path | Remote]) -> str:
     """Return a name for the inputs of a run."""
     return (tr("{} and others") if sources[1:] else "{}").format(name_of(sources[0]))
-
-
-def _filter(endings: str) -> str:
-    """Return the file types for a dialog, given the endings of point clouds."""
-    return f"{tr('Point clouds')} ({endings});;{tr('All files')} (*.*)"
 
 
 def _file(text: str) -> Path | None:

@@ -56,7 +56,7 @@ class _LayerBox(QgsAbstractProcessingParameterWidgetWrapper):
             self._box.setWidgetContext(context)
 
     def setWidgetValue(self, value: object, context: QgsProcessingContext) -> None:
-        """Choose a value, but for the first one, the default of the dialog, which is empty."""
+        """Choose a value; in place of the first one, if it is empty, what is suggested."""
         if self.wrappedWidget() is None:
             return
         is_first, is_null = self._suggested is None, compat.is_null(value)

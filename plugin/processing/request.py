@@ -81,7 +81,7 @@ class Resolved(NamedTuple):
     # By the names of the inputs; some are read only after a download, or in the thread of the work.
     given: Mapping[str, GivenInput] = MappingProxyType({})
     points: Inputs = Inputs(())  # the files on this computer
-    crs: CloudCrs = CloudCrs()  # of the points, or of the raster in the place of these
+    crs: CloudCrs = CloudCrs()  # of the points, or of the raster that is the input
     far: Sequence[str] = ()  # names of the inputs whose points are to be downloaded
     brought: Mapping[Path, str] = MappingProxyType({})  # files of the cache, and their addresses
 

@@ -76,7 +76,7 @@ def resolve_rest(request: Request, resolved: Resolved) -> Resolved:
 
 
 def _read(request: Request, resolved: Resolved, latest: int) -> Resolved:
-    """Read the inputs that are not read yet, up to those of a time."""
+    """Read the inputs that are due by a time, unless they are read already."""
     given = dict(resolved.given)
     for one in resolved.declared:
         kind = KINDS[one.kind]
@@ -119,7 +119,7 @@ def download(request: Request, resolved: Resolved, tool: Tool) -> Resolved:
 
     kinds = {one.name: one.kind for one in resolved.declared}
     margin = 0.0
-    # Without a field for an area, the downloaded part is all that is used.
+    # Without a field for an area, only the downloaded part is used.
     if tool.looks_around and not PARTS.isdisjoint(kinds.values()):
         fields = request.algorithm.destinationParameterDefinitions()
         rasters = [

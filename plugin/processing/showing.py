@@ -171,7 +171,7 @@ def _show_maps(run: ToolRun, done: Any, paths: dict[str, str]) -> Results:
 
 
 def _load_virtual(run: ToolRun, paths: dict[str, str]) -> dict[str, str]:
-    """Let QGIS load the virtual rasters of many files, and return these."""
+    """Let QGIS load virtual rasters in place of those of many files, and return their paths."""
     loaded = run.context.layersToLoadOnCompletion()
     found = {name: str(virtual_of(Path(path))) for name, path in paths.items()}
     for name, path in paths.items():

@@ -1,4 +1,4 @@
-"""The kinds of inputs: which fields they have in a dialog, and how and when these are read."""
+"""The kinds of inputs: their fields in a dialog, and how and when the fields are read."""
 
 from __future__ import annotations
 
@@ -101,7 +101,7 @@ def _one(make: Callable[..., Field], note: str = "") -> Callable[[Input], Fields
     """
 
     def fields(declared: Input) -> Fields:
-        optional = declared.optional or declared.kind not in _NEEDED
+        optional = declared.optional or KINDS[declared.kind].when != FILES
         field = make(declared.field_name, declared.label, None, optional)
         metadata = field.metadata()
         if declared.made_as:
@@ -115,10 +115,6 @@ def _one(make: Callable[..., Field], note: str = "") -> Callable[[Input], Fields
         yield (_advanced(field) if declared.advanced else field), help
 
     return fields
-
-
-# Kinds whose fields must be filled in unless the input is optional.
-_NEEDED = ("cloud", "clouds", "address", "raster", "terrain")
 
 
 def _layer(kind: object, field: Any = QgsProcessingParameterFeatureSource) -> Callable[..., Field]:
