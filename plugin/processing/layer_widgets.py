@@ -4,14 +4,11 @@ for attributes of layers and columns of text tables.
 
 from __future__ import annotations
 
-from functools import partial
 from pathlib import Path
-from typing import Any
 
 from qgis.core import (
     QgsPointCloudLayer,
     QgsProcessingContext,
-    QgsProcessingParameterDefinition,
     QgsProcessingParameterFile,
     QgsProcessingParameterString,
     QgsProject,
@@ -32,7 +29,7 @@ from ..styles.loaded import file_of, sources_of
 from .checkpoints import names_in
 from .remote import ADDRESS, PART, REMOTE, extent_of_map
 from .runs import MADE_AS, made_last
-from .widgets import designer_widget, is_designer, keep, kind, own_widget, widget_class
+from .widgets import keep, widget_class
 
 
 class _LayerBox(QgsAbstractProcessingParameterWidgetWrapper):
@@ -214,27 +211,12 @@ def _show_choice(names: QComboBox) -> None:
     names.setEditText(names.itemText(names.currentIndex()))
 
 
-def _cloud_widget(parameter: QgsProcessingParameterDefinition, dialog: QWidget) -> Any:
-    widget = own_widget(_CloudBox, parameter, dialog)
-    if is_designer(dialog):
-        # Adds inputs that are files or texts; outputs that are files are already in the list.
-        kinds = QgsProcessingParameterFile, QgsProcessingParameterString
-        widget.populateSources([kind.typeName() for kind in kinds], [], [])
-    return widget
-
-
 # In the model designer, QGIS itself only offers inputs that are layers. Without its `pdal`
-# provider, these cannot be .las and .laz files; texts are addresses.
-PointCloudWidget = widget_class(_cloud_widget)
-RasterWidget = widget_class(partial(own_widget, _LayerBox))
-
-
-def _attribute_widget(parameter: QgsProcessingParameterDefinition, dialog: QWidget) -> Any:
-    if is_designer(dialog):
-        return designer_widget(parameter, dialog)
-    return _AttributeBox(parameter, kind(dialog), dialog)
-
-
+# provider, these cannot be .las and .laz files; texts are addresses. Outputs that are files are
+# already in the list.
+_OTHERS = QgsProcessingParameterFile, QgsProcessingParameterString
+PointCloudWidget = widget_class(_CloudBox, sources=_OTHERS)
+RasterWidget = widget_class(_LayerBox)
 # That of QGIS takes a text table for a layer, and tells that it could not be loaded. Where it is
 # blank, QGIS 3.40 cannot save a batch.
-AttributeWidget = widget_class(_attribute_widget)
+AttributeWidget = widget_class(_AttributeBox, is_for_batch=True)

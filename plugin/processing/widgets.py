@@ -6,8 +6,7 @@ uses the result. The model designer needs another type of widget than other dial
 
 from __future__ import annotations
 
-from functools import partial
-from typing import Any, Callable, Iterable, TypeVar
+from typing import Any, Callable, Iterable, Sequence, TypeVar
 
 from qgis.core import (
     QgsProcessingContext,
@@ -19,7 +18,6 @@ from qgis.gui import (
     QgsCheckableComboBox,
     QgsGui,
     QgsProcessingGui,
-    QgsProcessingModelerParameterWidget,
 )
 from qgis.PyQt.QtCore import Qt
 from qgis.PyQt.QtWidgets import QCheckBox, QComboBox, QLabel, QLineEdit, QWidget
@@ -40,34 +38,32 @@ _CHECKED = 2
 Widget = TypeVar("Widget", bound=QWidget)
 
 
-def is_designer(dialog: QWidget) -> bool:
-    """Return whether a dialog is that of a step in the model designer."""
-    return type(dialog).__name__ == "ModelerParametersDialog"
-
-
-def kind(dialog: QWidget) -> QgsProcessingGui.WidgetType:
-    """Return the kind of the widgets of a dialog that is not the designer."""
-    is_batch = type(dialog).__name__.startswith("Batch")
-    return QgsProcessingGui.WidgetType.Batch if is_batch else QgsProcessingGui.WidgetType.Standard
-
-
-def widget_class(make: Callable[[QgsProcessingParameterDefinition, QWidget], Any]) -> type:
-    """Return a class that makes widgets of a field in place of instances of its own, as QGIS wants
-    it in the metadata of the field.
+def widget_class(
+    box: Callable[..., Any], is_for_batch: bool = False, sources: Sequence[Any] = ()
+) -> type:
+    """Return a class whose call makes a box of ours in a dialog for one run, or also in batch mode,
+    and in others the widget of QGIS, which offers inputs of more kinds in the model designer.
     """
-    new = staticmethod(lambda _, parameter, dialog, *place: make(parameter, dialog))
-    return type("WidgetMaker", (), {"__new__": new})
 
+    def make(
+        _: type, parameter: QgsProcessingParameterDefinition, dialog: QWidget, *place: object
+    ) -> Any:
+        registry, name = QgsGui.processingGuiRegistry(), type(dialog).__name__
+        if name == "ModelerParametersDialog":
+            step = dialog.model, dialog.childId, parameter, dialog.context
+            widget = registry.createModelerParameterWidget(*step)
+            widget.setDialog(dialog)
+            if sources:
+                widget.populateSources([source.typeName() for source in sources], [], [])
+            return widget
+        is_batch, kinds = name.startswith("Batch"), QgsProcessingGui.WidgetType
+        if is_batch and not is_for_batch:
+            widget = registry.createParameterWidgetWrapper(parameter, kinds.Batch)
+            widget.setDialog(dialog)
+            return widget
+        return box(parameter, kinds.Batch if is_batch else kinds.Standard, dialog)
 
-def own_widget(box: type, parameter: QgsProcessingParameterDefinition, dialog: QWidget) -> Any:
-    """Return a box of ours in a dialog for one run, and the widget of QGIS in others."""
-    if is_designer(dialog):
-        return designer_widget(parameter, dialog)
-    if kind(dialog) == QgsProcessingGui.WidgetType.Standard:
-        return box(parameter, kind(dialog), dialog)
-    widget = QgsGui.processingGuiRegistry().createParameterWidgetWrapper(parameter, kind(dialog))
-    widget.setDialog(dialog)
-    return widget
+    return type("WidgetMaker", (), {"__new__": make})
 
 
 def keep(widget: Widget) -> Widget:
@@ -75,17 +71,6 @@ def keep(widget: Widget) -> Widget:
     # QGIS gives the widget that `createWidget` returned a second Python half, and Python frees the
     # first one. Qt still points to it: to delete the widget would write into freed memory.
     widget.destroyed.connect(lambda _, widget=widget: None)
-    return widget
-
-
-def designer_widget(
-    parameter: QgsProcessingParameterDefinition, dialog: QWidget
-) -> QgsProcessingModelerParameterWidget:
-    """Return the widget of QGIS in the designer, for a value, an input or an output."""
-    widget = QgsGui.processingGuiRegistry().createModelerParameterWidget(
-        dialog.model, dialog.childId, parameter, dialog.context
-    )
-    widget.setDialog(dialog)
     return widget
 
 
@@ -237,16 +222,16 @@ def _check(box: QComboBox, values: Iterable[object]) -> None:
         box.setItemData(place, _CHECKED if is_chosen else _UNCHECKED, _STATE)
 
 
-def _choice_widget(parameter: ChoiceParameter, dialog: QWidget) -> Any:
-    if is_designer(dialog):
-        return designer_widget(parameter, dialog)
+def _choice_box(
+    parameter: ChoiceParameter, kind: QgsProcessingGui.WidgetType, dialog: QWidget
+) -> QgsAbstractProcessingParameterWidgetWrapper:
     box = _ChoicesBox if parameter.allowMultiple() else _ChoiceBox
-    if parameter.name() == DELIVERY and kind(dialog) == QgsProcessingGui.WidgetType.Standard:
+    if parameter.name() == DELIVERY and kind == QgsProcessingGui.WidgetType.Standard:
         box = _DeliveryBox
-    return box(parameter, kind(dialog), dialog)
+    return box(parameter, kind, dialog)
 
 
-# A choice shows labels, but values in the model designer. A boolean has always a value, so it is
-# not "[optional]".
-ChoiceWidget = widget_class(_choice_widget)
-CheckWidget = widget_class(partial(own_widget, _CheckBox))
+# A choice shows labels, but values in the model designer.
+ChoiceWidget = widget_class(_choice_box, is_for_batch=True)
+# A boolean has always a value, so it is not "[optional]".
+CheckWidget = widget_class(_CheckBox)
