@@ -225,21 +225,28 @@ def _area(request: Request, declared: Input, resolved: Resolved) -> GivenInput:
     area = area_of(request, resolved.crs)
     if area is None:
         return GivenInput(None)
-    file = file_for_command(request, "BOUNDARY") if resolved.crs.is_known else ""
-    if area.polygons and not file:
-        _tell_missing(request, ["boundary"])
     box = tuple(map(repr, area.box)) if area.box else ()
-    return GivenInput(area, {"extent": box, "boundary": file})
+    boundary = [BOUNDARY] if area.polygons else []
+    files = _files(request, boundary, are_usable=resolved.crs.is_known)
+    return GivenInput(area, {"extent": box, **files})
 
 
-def _tell_missing(request: Request, names: Sequence[str], note: str = "") -> None:
-    """Tell which layers the command line lacks, since no files hold what they hold."""
-    names = [name.replace("_", "-") for name in names]
-    options = " ".join(f"--{name} {name}.geojson" for name in names)
-    request.progress.info(
-        f"The command line lacks what is in layers: save {' and '.join(names)} in the CRS of the"
-        f" points as GeoJSON{note}, and add {options}."
-    )
+def _files(
+    request: Request, layers: Sequence[Input], note: str = "", are_usable: bool = True
+) -> dict[str, str]:
+    """Return the files that hold what layers hold, as options of the command; the log says which
+    ones it lacks.
+    """
+    files = {
+        one.name: file_for_command(request, one.field_name) if are_usable else "" for one in layers
+    }
+    if missing := [name.replace("_", "-") for name, file in files.items() if not file]:
+        options = " ".join(f"--{name} {name}.geojson" for name in missing)
+        request.progress.info(
+            f"The command line lacks what is in layers: save {' and '.join(missing)} in the CRS of"
+            f" the points as GeoJSON{note}, and add {options}."
+        )
+    return files
 
 
 def _corrections(request: Request, declared: Input, resolved: Resolved) -> GivenInput:
@@ -253,14 +260,13 @@ def _corrections(request: Request, declared: Input, resolved: Resolved) -> Given
     if source is not None and not (of_class or answer):
         text = mark("The corrections have no attribute {}. Choose the one to use.")
         raise Refusal(text, asked)
-    file = file_for_command(request, name) if asked.lower() == CLASS_FIELD else ""
-    if not file:
-        _tell_missing(request, [declared.name], f', with the attribute "{CLASS_FIELD}"')
-    shapes = layer_shapes(request, GROUPS[declared.kind][0], resolved.crs, fields)
+    layer, note = GROUPS[declared.kind][0], f', with the attribute "{CLASS_FIELD}"'
+    files = _files(request, [layer], note, asked.lower() == CLASS_FIELD)
+    shapes = layer_shapes(request, layer, resolved.crs, fields)
     polygons, rows = zip(*shapes) if shapes else ((), ())
     classes, answers = (tuple(value_of(row, one) for row in rows) for one in (of_class, answer))
     found = Corrections(polygons, classes, answers, tuple(map(plain_values, rows)))
-    return GivenInput(found, {declared.name: file})
+    return GivenInput(found, files)
 
 
 def _constraints(request: Request, declared: Input, resolved: Resolved) -> GivenInput:
@@ -269,10 +275,7 @@ def _constraints(request: Request, declared: Input, resolved: Resolved) -> Given
     for part in given:
         found = layer_shapes(request, part, resolved.crs)
         shapes[part.name] = tuple(corners for corners, _ in found)
-    files = {part.name: file_for_command(request, part.field_name) for part in given}
-    if missing := [name for name, file in files.items() if not file]:
-        _tell_missing(request, missing)
-    return GivenInput(Constraints(**shapes), files)
+    return GivenInput(Constraints(**shapes), _files(request, given))
 
 
 def _polygons(request: Request, declared: Input, resolved: Resolved) -> GivenInput:
@@ -281,11 +284,9 @@ def _polygons(request: Request, declared: Input, resolved: Resolved) -> GivenInp
         return GivenInput(declared.of(()))
     if declared.found and request.is_empty(name):
         return GivenInput(Automatic(), {declared.name: "automatic"})
-    file = file_for_command(request, name)
-    if not file:
-        _tell_missing(request, [declared.name])
+    files = _files(request, [declared])
     shapes = layer_shapes(request, declared, resolved.crs, may_be_empty=declared.may_be_empty)
-    return GivenInput(declared.of(tuple(rings for rings, _ in shapes)), {declared.name: file})
+    return GivenInput(declared.of(tuple(rings for rings, _ in shapes)), files)
 
 
 # When inputs are read: the files, which name the run and are checked before it; before the work,
@@ -314,10 +315,7 @@ KINDS = {
     "address": Kind(_one(PointCloudInput, LAYER_HELP), _address, FILES),
     "raster": Kind(_one(QgsProcessingParameterRasterLayer), _raster, FILES),
     "terrain": Kind(_one(TerrainInput), _terrain, FILES),
-    "crs": Kind(
-        _one(QgsProcessingParameterCrs),
-        _crs,
-    ),
+    "crs": Kind(_one(QgsProcessingParameterCrs), _crs),
     "extent": Kind(_one(QgsProcessingParameterExtent), _extent),
     "words": Kind(
         _one(
