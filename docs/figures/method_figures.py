@@ -88,7 +88,7 @@ def tin_densification_steps() -> None:
     method, parameters = tin_densification.METHOD, tin_densification.TinDensification()
     before, after = (of_stage(method, points, parameters, stage) for stage in LAST_STAGES)
     (grid,) = after.grids
-    seeds, waiting, vertices = before.seeds, before.waiting, after.seeds
+    seeds, waiting, vertices = before.seeds, before.candidates, after.seeds
     joined, limits, cells = np.setdiff1d(vertices, seeds), after.limits, grid.cells
     ground = method.classify(points, parameters)
 
