@@ -131,7 +131,7 @@ def test_a_missing_source_is_one_sentence_and_the_others_go_on(server, tmp_path)
     )
     del server.files["gone/0.bin"]
     (failed,) = Fetching(tmp_path / "data", SILENT).run([gone, good])
-    assert failed.startswith("gone: ") and "does not exist (status 404)" in failed
+    assert failed.startswith("gone: ") and "404" in failed
     assert (tmp_path / "data/real/good.laz").exists()
     assert not (tmp_path / "data/real/gone.laz").exists()
 
@@ -170,7 +170,7 @@ def test_other_points_than_measured_are_refused_and_not_replaced(server, tmp_pat
     entry = entry_of(server, "tile", [content], (("copy",),), tmp_path / "source.las")
     wrong = dataclasses.replace(entry, points_sha256="?")
     (failed,) = Fetching(tmp_path / "data", SILENT).run([wrong])
-    assert "differs from what was measured" in failed
+    assert "differs" in failed
     assert not (tmp_path / "data/real/tile.laz").exists()
     (tmp_path / "data/real").mkdir(exist_ok=True)
     points(seed=2).write(tmp_path / "data/real/tile.laz")

@@ -242,7 +242,7 @@ def test_a_bridge_is_other_or_of_the_class_that_is_wanted(method):
     assert np.mean(marked[deck] == 17) > 0.75
     assert np.mean(marked[~deck] == 17) < 0.006
     found = np.count_nonzero(marked == 17)
-    assert f"{found:,} points on decks of bridges are not ground." in progress.infos
+    assert any(f"{found:,} points on decks" in text for text in progress.infos)
 
 
 @pytest.mark.parametrize("method", quick(METHODS, "slope"))

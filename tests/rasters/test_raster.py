@@ -53,7 +53,7 @@ def test_a_raster_that_is_long_in_one_direction_counts_by_its_cells(tmp_path, co
         "<GeoTransform>0, 1, 0, 0, 0, -1</GeoTransform>"
         '<VRTRasterBand dataType="Byte" band="1"/></VRTDataset>'
     )
-    with pytest.raises(BareEarthError, match="too many to be held in memory"):
+    with pytest.raises(BareEarthError, match="memory"):
         read_raster(path)
 
 
@@ -140,7 +140,7 @@ def test_cells_that_find_no_room_to_wait_on_disk_are_told_before_any_is_made(tmp
     monkeypatch.setattr(shutil, "disk_usage", usage)
     rows = RasterCells((side, side), "uint8", (pytest.fail("a row was made") for _ in range(1)))
     grid = RasterGrid(0.0, float(side), 1.0, side, side, Frame())
-    with pytest.raises(BareEarthError, match=r"Cannot write .*out\.tif: the disk is full\."):
+    with pytest.raises(BareEarthError, match=r"out\.tif: .*disk.* full"):
         write_geotiff(target, rows, grid, 255, Progress(), "classes")
     assert asked == [tmp_path] and target.read_bytes() == b"old"
     assert list(tmp_path.iterdir()) == [target]
@@ -206,5 +206,5 @@ def test_statistics_of_the_raster_before_are_removed(tmp_path):
 def test_a_point_cloud_is_no_raster(tmp_path):
     cloud = tmp_path / "points.laz"
     cloud.write_bytes(b"LASF" + bytes(400))
-    with pytest.raises(BareEarthError, match=r"points\.laz is a point cloud, and this reads"):
+    with pytest.raises(BareEarthError, match=r"points\.laz is a point cloud"):
         read_raster(cloud)

@@ -156,7 +156,7 @@ def test_constraints_lie_where_they_are_on_any_grid(source, tmp_path):
         (dict(e=1.3), "south up"),
         (dict(crs="EPSG:25833"), "in another CRS .*'crs'"),
         (dict(crs="EPSG:4326"), "in another CRS"),
-        (dict(west=600_000.0), "No point lies in the rasters .*'like'"),
+        (dict(west=600_000.0), "No point .*'like'"),
     ],
 )
 def test_unsuitable_rasters_are_refused_in_one_sentence(source, tmp_path, how, words):
@@ -175,7 +175,7 @@ def test_a_raster_that_the_points_do_not_meet_is_refused_before_many_files_are_c
         "classify", files, tmp_path / "out", "--dtm", tmp_path / "dtm.tif", "--like", like
     )
     assert code == 1
-    assert "No point lies in the rasters" in errors
+    assert "No point" in errors and "--like" in errors
     assert not (tmp_path / "out").exists()
 
 

@@ -339,13 +339,13 @@ def test_the_commands_make_one_raster_for_each_file(survey, tmp_path, threads_fo
 
 def test_rasters_of_single_files_that_would_do_harm_are_refused(survey, named, tmp_path):
     (tmp_path / "dtm").write_bytes(b"")
-    with pytest.raises(BareEarthError, match="dtm: it is a file"):
+    with pytest.raises(BareEarthError, match=r"dtm: .* a file"):
         bare_earth.terrain(survey / "many", **named, raster_per_file=True)
     (tmp_path / "dtm").unlink()
     alike = [write(tmp_path / f"a.{suffix}", strip(300), classes=2) for suffix in ("las", "laz")]
-    with pytest.raises(BareEarthError, match=r"would both become a\.tif"):
+    with pytest.raises(BareEarthError, match=r"both .*a\.tif"):
         bare_earth.terrain(alike, **named, raster_per_file=True)
-    with pytest.raises(BareEarthError, match=r"would both become a\.tif"):
+    with pytest.raises(BareEarthError, match=r"both .*a\.tif"):
         bare_earth.classify(alike, tmp_path / "out", **named, raster_per_file=True, **SLOPE)
     assert sorted(os.listdir(tmp_path)) == ["a.las", "a.laz"]
 

@@ -44,7 +44,7 @@ def read(path, heard):
 
 
 def told(heard):
-    return [line for line in heard.warnings if "far from all other heights" in line]
+    return [line for line in heard.warnings if "far from" in line]
 
 
 @pytest.mark.parametrize("value", [-9999, -32768, -32767, -99999, -999, LEAST, -1e30, 1.70141e38])
@@ -61,10 +61,10 @@ def test_other_kinds_of_cells_and_declared_values(tmp_path):
     both[20, 20:23] = -32768
     heard = Heard()
     cells = read(write(tmp_path / "both.tif", both, nodata=-32768), heard)
-    assert cells.mask.sum() == 19 and "has 16 cells of -9999, far" in told(heard)[0]
+    assert cells.mask.sum() == 19 and "has 16 cells of -9999" in told(heard)[0]
     heard = Heard()
     cells = read(write(tmp_path / "int.tif", both.astype(np.int16), kind="int16"), heard)
-    assert cells.mask.sum() == 19 and "3 cells of -32768, 16 cells of -9999, far" in told(heard)[0]
+    assert cells.mask.sum() == 19 and "3 cells of -32768, 16 cells of -9999" in told(heard)[0]
     heard, tenths = Heard(), with_hole(-32768, hill() * 10)
     assert read(write(tmp_path / "dm.tif", tenths, kind="int16", scale=0.1), heard).min() > 99
     assert len(told(heard)) == 1

@@ -401,12 +401,12 @@ def test_a_picture_is_no_terrain(tmp_path, capsys):
         ) as file:  # fmt: skip
             file.write(values)
         assert main(["relief", str(tmp_path / name), str(tmp_path / "vat.tif"), "--kind", "vat"])
-        assert "is a picture in colours, not a raster of heights" in capsys.readouterr().err
+        assert "a picture in colours" in capsys.readouterr().err
         assert not (tmp_path / "vat.tif").exists()
 
 
 def test_an_unknown_kind_is_refused(tmp_path):
-    with pytest.raises(Exception, match="Kinds of relief must be one of hillshade"):
+    with pytest.raises(Exception, match="one of hillshade"):
         bare_earth.relief(tmp_path / "dtm.tif", tmp_path / "out.tif", kind="shadow")
 
 

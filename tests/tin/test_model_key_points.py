@@ -175,5 +175,5 @@ def test_points_on_one_line_are_all_kept(count):
 
 
 def test_a_negative_tolerance_is_refused():
-    with pytest.raises(BareEarthError, match="Tolerance above must be at least 0 m"):
+    with pytest.raises(BareEarthError, match=r"Tolerance above .* at least 0 m"):
         ModelKeyPoints(tolerance_above=-0.1)

@@ -138,7 +138,7 @@ def test_a_terrain_on_another_grid_is_interpolated_and_told(tmp_path):
     bare_earth.canopy(
         tmp_path / "dsm.tif", tmp_path / "dtm.tif", tmp_path / "chm.tif", progress=heard
     )
-    assert any("dtm.tif is not on the grid of" in text for text in heard.infos)
+    assert any("dtm.tif is not on the grid" in text for text in heard.infos)
     assert np.allclose(cells(tmp_path / "chm.tif"), expected, atol=1e-3, equal_nan=True)
 
 
@@ -158,9 +158,9 @@ def test_pits_of_two_rasters_are_filled(tmp_path):
     ("terrain", "swapped", "message"),
     [
         ({"crs": "EPSG:25833"}, False, "Reproject"),
-        ({"west": 6e5}, False, "No cell has a value in both"),
-        ({"heights": np.full((30, 40), 110.0)}, False, "Give the surface model first"),
-        ({"heights": np.full((30, 40), 90.0)}, True, "Give the surface model first"),
+        ({"west": 6e5}, False, "No cell .* both"),
+        ({"heights": np.full((30, 40), 110.0)}, False, "surface model first"),
+        ({"heights": np.full((30, 40), 90.0)}, True, "surface model first"),
     ],
 )
 def test_rasters_that_do_not_belong_together_are_refused(tmp_path, terrain, swapped, message):

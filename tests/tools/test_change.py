@@ -180,12 +180,12 @@ def other_terrain(folder, kind):
 @pytest.mark.parametrize(
     ("kind", "words"),
     [
-        ("apart", "No cell has a value in both"),
-        ("empty", "neither of which is empty"),
-        ("feet", "differ as metres and feet do"),
-        ("map", "is in another CRS"),
-        ("ellipsoid", "are not above the same datum"),
-        ("noise", "of the common area is stable"),
+        ("apart", "No cell .* both"),
+        ("empty", "neither .* empty"),
+        ("feet", "metres and feet"),
+        ("map", "another CRS"),
+        ("ellipsoid", "same datum"),
+        ("noise", "stable"),
     ],
 )
 def test_what_cannot_be_compared_is_refused_in_a_sentence(tmp_path, kind, words):

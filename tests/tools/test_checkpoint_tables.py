@@ -310,7 +310,7 @@ def test_control_points_are_left_out_and_unknown_covers_are_told(survey, tmp_pat
     assert "Moon (1)" in " ".join(progress.warnings)
     none = points_at(xy, true, types=["VVA"] * 8)
     found = check([survey], none, Accuracy(accuracy_class=0.1))
-    assert found.meets_class is None and "No checkpoint lies on land without" in found.statement
+    assert found.meets_class is None and "No checkpoint" in found.statement
     with pytest.raises(BareEarthError, match=r"8 .*control"):
         check([survey], points_at(xy, true, types=["GCP"] * 8))
 
@@ -358,7 +358,7 @@ def test_errors_that_are_not_alike_are_no_other_datum():
     assert offset_in_words(true, true + random.normal(0, 3, 30)) == ""
     assert offset_in_words(true, true + 0.4) == "" and offset_in_words(true[:0], true[:0]) == ""
     assert offset_in_words(true[:1], true[:1] + 2.0) == ""
-    assert "The checkpoint lies 40.00 m above" in offset_in_words(true[:1], true[:1] + 40.0)
+    assert "40.00 m above" in offset_in_words(true[:1], true[:1] + 40.0)
 
 
 FIELD = {  # counted checkpoints without and with vegetation

@@ -168,7 +168,7 @@ def test_held_out_points_are_the_same_in_each_run_and_tell_the_noise(tmp_path):
 def test_held_out_points_of_single_returns_and_of_a_terrain_with_gaps_say_so(tmp_path):
     path = write(tmp_path / "in.laz", *cloud())
     left = check([path], None, CheckOptions(hold_out=0.05)).hold_out
-    assert left.single and "No pulse has several returns" in left.limits()
+    assert left.single and "several returns" in left.limits()
 
 
 def test_more_held_out_points_than_are_measured(survey, monkeypatch):
@@ -198,8 +198,8 @@ def test_the_expected_error_is_compared_with_the_errors(survey, tmp_path):
     assert right.count == 60 and right.inside >= 55 and right.factor < 1.2
     wrong = check([survey], points(places(60), 0.5), **rasters).expected
     assert wrong.inside < 20 and wrong.factor > 2.0
-    assert f"{wrong.inside} of 60 errors lie inside the expected error" in wrong.text
-    assert f"with the factor {wrong.factor:.2f}" in wrong.text
+    assert f"{wrong.inside} of 60 errors" in wrong.text
+    assert f"factor {wrong.factor:.2f}" in wrong.text
     command = ["terrain", str(survey), "--expected-error", rasters["expected_error"]]
     assert main([*command, "--error-factor", f"{wrong.factor:.6f}"]) == 0
     again = check([survey], points(places(60), 0.5), **rasters).expected
@@ -282,10 +282,10 @@ def test_columns_can_be_chosen(tmp_path):
     assert read_checkpoints(path, "x=a,y=B,z=c,cover=d").xyz.tolist() == [[1.0, 2.0, 3.0]]
     assert read_checkpoints(path, "x=a,y=2").xyz.tolist() == [[1.0, 2.0, 9.0]]
     for columns, words in {
-        "": "no column that is known as x and y among a, b, c, d, z",
-        "x=q": "has no column q. It has a, b, c, d, z",
-        "x:a": "must be written like x=E",
-        "x=d,y=b": "Line 2 of .* has no number for x, but 'kind'",
+        "": "x and y among a, b, c, d, z",
+        "x=q": "column q.* a, b, c, d, z",
+        "x:a": "like x=E",
+        "x=d,y=b": "Line 2 .* x, but 'kind'",
     }.items():
         with pytest.raises(BareEarthError, match=words):
             read_checkpoints(path, columns)
@@ -293,7 +293,7 @@ def test_columns_can_be_chosen(tmp_path):
 
 @pytest.mark.parametrize("text", ["", "only words\nin it\n", "1;2\n3;4\n"])
 def test_a_file_without_points_is_refused(tmp_path, text):
-    with pytest.raises(BareEarthError, match="holds no table of points"):
+    with pytest.raises(BareEarthError, match="no table of points"):
         read_checkpoints(table(tmp_path / "p.csv", text))
 
 
@@ -386,7 +386,7 @@ def test_a_vector_crs_is_transformed(survey, tmp_path):
     for given in (read_checkpoints(path, crs="EPSG:4326"), read_checkpoints(path)):
         progress = Heard()
         assert check([survey], given, progress=progress).nva.rmse < 0.02
-        assert "is transformed to the CRS of the points" in str(progress.__dict__)
+        assert "transformed to the CRS" in str(progress.__dict__)
 
 
 def test_words_for_vegetated_land_can_be_chosen(survey):
@@ -406,7 +406,7 @@ def test_the_statement_has_the_form_of_the_standard():
         " checkpoints."
     )
     text = statement(few, None, 0.1)
-    assert "ONLY 29 checkpoints" in text and "was produced to meet a 10 cm" in text
+    assert "ONLY 29 checkpoints" in text and "to meet a 10 cm" in text
     assert "does not meet a 5 cm" in statement(good, None, 0.05)
     assert "to meet" not in statement(good, None, None)
     assert "no test" in statement(None, good, 0.1)
@@ -466,10 +466,10 @@ def test_layers_of_other_formats(survey, tmp_path, suffix):
 def test_what_cannot_be_done_is_refused_before_the_work(survey, tmp_path, capsys):
     given = points(places(3))
     for name, file, words in [
-        ("report", "r.pdf", "name it .html"),
-        ("table", "r.xls", "name it .csv"),
+        ("report", "r.pdf", r"\.html"),
+        ("table", "r.xls", r"\.csv"),
         ("residuals", "r.kml", "Name it so"),
-        ("report", "missing/r.html", "does not exist"),
+        ("report", "missing/r.html", "missing .*exist"),
     ]:
         with pytest.raises(BareEarthError, match=words):
             check([tmp_path / "missing.laz"], given, outputs={name: tmp_path / file})

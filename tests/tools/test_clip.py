@@ -104,7 +104,7 @@ def test_many_files_become_those_that_have_points_there(tmp_path):
             assert folder.name == "in" or inside.all()
     assert whole.keys() == parts.keys() and len(parts) > 1
     assert all(np.array_equal(parts[name], whole[name]) for name in whole)
-    assert f"{6 - len(parts)} files are not written: they have no points to write" in errors
+    assert f"{6 - len(parts)} files are not written" in errors
     assert (tmp_path / "out" / "clipped.vpc").is_file()
     assert sum(map(len, parts.values())) == json.loads(told)["point_count"]
 
@@ -114,9 +114,9 @@ def test_what_cannot_be_clipped_is_one_sentence_and_no_file(many, tmp_path):
     (tmp_path / "in").mkdir()
     source = cloud(tmp_path / "in" / "a.laz")
     source, target = (source.parent, tmp_path / "out") if many else (source, tmp_path / "out.laz")
-    with pytest.raises(BareEarthError, match="Give an extent or a boundary"):
+    with pytest.raises(BareEarthError, match="extent or a boundary"):
         bare_earth.clip(source, target)
-    with pytest.raises(BareEarthError, match=r"lies in the area .*Give the area in the CRS"):
+    with pytest.raises(BareEarthError, match="area in the CRS"):
         bare_earth.clip(source, target, extent=(0.0, 0.0, 10.0, 10.0))
     # Inside of the extent of the points, between these.
     speck = EAST + 50.0, NORTH + 50.0, EAST + 50.0001, NORTH + 50.0001

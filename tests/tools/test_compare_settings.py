@@ -133,7 +133,7 @@ def test_feet_are_converted(made, tmp_path):
     summary = compare_settings([source], tmp_path / "feet.html", extent=box, settings=BOTH)
     page = (tmp_path / "feet.html").read_text(encoding="utf-8")
     # The page speaks in the unit of the survey, and its figures are in metres.
-    assert "(262 x 262 ft, 80 x 80 m)" in page and "164 ft (50 m) round the window" in page
+    assert "(262 x 262 ft, 80 x 80 m)" in page and "164 ft (50 m) round" in page
     assert f"{summary.settings[1]['terrain_difference'] / FOOT:.2f} ft" in page
     assert not re.search(r"\d m</div>|</div>\d+ m", page)
     for one, other in zip(figures(summary), figures(made[0])):
@@ -145,7 +145,7 @@ def test_feet_are_converted(made, tmp_path):
 @pytest.mark.rest
 def test_the_context_is_told_and_can_be_chosen(source, made, tmp_path):
     assert made[0].context == 50.0
-    assert "50 m round the window were read" in made[1] and "look up to 180 m far" in made[1]
+    assert "50 m round the window" in made[1] and "up to 180 m" in made[1]
     page = tmp_path / "p.html"
     near = {"extent": WINDOW, "settings": ("slope:whitebox",), "context": 5}
     summary = compare_settings(source, page, **near)
@@ -171,7 +171,7 @@ def test_a_setting_without_ground_is_shown_as_such(source, tmp_path, monkeypatch
 @pytest.mark.parametrize(
     ("window", "says"),
     [
-        ((0, 0, 100, 100), "No point lies in the window .* the points lie in x 5"),
+        ((0, 0, 100, 100), "No point .* window .* points lie in x 5"),
         ((4e5, 57e5, 5e5, 58e5), "100,000 m wide"),
         ((2, 0, 1, 1), "XMIN below XMAX"),
     ],
@@ -184,7 +184,7 @@ def test_a_window_that_does_not_do_is_refused(source, tmp_path, window, says):
 
 def test_values_that_do_not_do_are_refused(source, tmp_path):
     for wrong, says in (
-        ({"settings": ("slope:moon",)}, "Settings must be one of"),
+        ({"settings": ("slope:moon",)}, "Settings .* one of"),
         ({"settings": ()}, "choose at least one"),
     ):
         with pytest.raises(BareEarthError, match=says):
@@ -210,7 +210,7 @@ def test_without_a_window_the_middle_is_taken(source, tmp_path, capsys):
     summary = compare_settings(source, page, settings=ONE, progress=progress)
     # The scene is smaller than 250 m.
     assert summary.point_count == len(x)
-    assert any("window in the middle of the points, x 5" in text for text in progress.infos)
+    assert any("middle of the points, x 5" in text for text in progress.infos)
     first = page.read_bytes()
     words = ["compare-settings", str(source), str(page), "--settings", *ONE]
     assert main(words) == 0 and page.read_bytes() == first

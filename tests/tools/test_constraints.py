@@ -75,14 +75,14 @@ def test_a_breakline_without_heights_lies_on_the_ground_beside_it(wall, tmp_path
     assert np.nanmean(np.abs(found - truth)[away] > 0.05) < 0.001
 
 
-@pytest.mark.rest(but="heights3-1 lie more than 10 m from it")
+@pytest.mark.rest(but="heights3-1 lie more than 10 m")
 @pytest.mark.parametrize(
     ("heights", "told"),
-    [((0.0, 0.0), "2 of 2 corners.*2 are 0, up to 10.0 m away"),
-     ((-9999.0, 10.0), "1 stand for no"),
-     ((10.0, -32768.0), "1 stand for no height"), ((10.0, 800.0), "1 lie more than 10 m from it"),
-     ((32.8, 32.8), "2 lie more than 10 m from it, up to 22.8 m"),
-     ((1e38, np.inf), "1 of 1 corners")],
+    [((0.0, 0.0), r"2 of 2 .*2 are 0, .*10\.0 m"),
+     ((-9999.0, 10.0), "1 stand"),
+     ((10.0, -32768.0), "1 stand"), ((10.0, 800.0), "1 lie more than 10 m"),
+     ((32.8, 32.8), r"2 lie more than 10 m.* 22\.8 m"),
+     ((1e38, np.inf), "1 of 1 ")],
 )  # fmt: skip
 def test_heights_of_a_breakline_that_cannot_be_are_taken_from_the_ground(tmp_path, heights, told):
     x, y = scatter(SIZE, 1.0, seed=2)
@@ -267,7 +267,7 @@ def test_where_there_is_no_ground_the_terrain_is_that_round_about(tmp_path):
     found, *_ = _raster(source, tmp_path / "dtm.tif", no_ground=(polygon,))
     assert np.nanmax(np.abs(found - 5.0)) < 1e-3
     everywhere = _square(-1.0, -1.0, SIZE + 1, SIZE + 1)
-    with pytest.raises(BareEarthError, match="polygons of water or without ground"):
+    with pytest.raises(BareEarthError, match="water or without ground"):
         _raster(source, tmp_path / "none.tif", no_ground=(everywhere,))
 
 
@@ -312,7 +312,7 @@ def test_a_run_that_classifies_makes_the_terrain_of_what_it_writes(tmp_path, how
         target = tmp_path / "out.laz"
     memory, progress = 0.001 if how == "parts" else None, Heard()
     classify(source, target, memory=memory, progress=progress, **FAST, **once, **known)
-    assert any("do not fit into the memory" in text for text in progress.infos) == bool(memory)
+    assert any("fit into the memory" in text for text in progress.infos) == bool(memory)
     terrain(target, **again, **known)
     assert once["dtm"].read_bytes() == again["dtm"].read_bytes()
     with rasterio.open(once["dtm"]) as raster:
@@ -328,7 +328,7 @@ def test_a_run_that_classifies_makes_the_terrain_of_what_it_writes(tmp_path, how
 
 def test_a_run_without_rasters_takes_no_lines(wall, tmp_path):
     source, lines = wall
-    with pytest.raises(BareEarthError, match="Choose a raster to make"):
+    with pytest.raises(BareEarthError, match="raster to make"):
         classify(source, tmp_path / "out.laz", breaklines=lines)
 
 
@@ -355,7 +355,7 @@ def test_the_terrain_command_takes_files_of_lines_and_polygons(wall, tmp_path, c
     assert main(["terrain", *files[1:2], "--dtm", str(tmp_path / "again.tif"), *known]) == 0
     assert (tmp_path / "once.tif").read_bytes() == (tmp_path / "again.tif").read_bytes()
     assert main([*words, "--water", str(tmp_path / "lines.geojson")]) == 1
-    assert "lines.geojson holds no polygon" in capsys.readouterr().err
+    assert re.search(r"lines\.geojson .*no polygon", capsys.readouterr().err)
 
 
 def test_lines_far_from_any_ground_are_told(wall, tmp_path):
@@ -368,7 +368,7 @@ def test_lines_far_from_any_ground_are_told(wall, tmp_path):
         water=(_square(800.0, 800.0, 850.0, 850.0), _square(20.0, 20.0, 30.0, 30.0)),
     )  # fmt: skip
     assert any("Breaklines left out: 1." in text for text in progress.warnings)
-    assert any("water that are not flattened: 1." in text for text in progress.warnings)
+    assert any("not flattened: 1" in text for text in progress.warnings)
 
 
 @pytest.mark.parametrize(

@@ -1,5 +1,7 @@
 """Rasters without any value, and points from which none can be made."""
 
+import re
+
 import laspy
 import numpy as np
 import pytest
@@ -17,7 +19,7 @@ def on_a_line(tmp_path_factory):
 def test_a_terrain_model_without_any_value_is_told(on_a_line, tmp_path):
     code, _, told = said("terrain", on_a_line, "--dtm", tmp_path / "o.tif")
     assert code == 0 and np.isnan(heights_of(tmp_path / "o.tif")).all()
-    assert "No cell has a value: Terrain model (DTM)." in told
+    assert re.search(r"No cell .*\(DTM\)", told)
 
 
 def test_a_raster_with_a_value_is_not_told(tmp_path):
@@ -40,7 +42,7 @@ def test_an_upright_slab_with_values_is_told(tmp_path):
     x, z = np.random.default_rng(1).uniform(0, 60, (2, 4_000))
     y = np.random.default_rng(2).uniform(0, 12, 4_000)
     told = said("classify", write_points(tmp_path / "in.laz", x, y, z, 1), tmp_path / "o.laz")[2]
-    assert "Their heights reach 60 m: check whether y is up" in told
+    assert re.search(r"heights .*60 m\b.* y is up", told)
     source = write_points(tmp_path / "in.laz", x, z, y, 1)
     told = said("classify", source, tmp_path / "p.laz", *FAST_WORDS)[2]
     assert "y is up" not in told
@@ -55,7 +57,7 @@ def test_coordinates_that_were_cut_off_are_refused(tmp_path, axis, value):
     las[axis] = np.full(len(las), value, np.int32)
     las.write(source)
     code, _, told = said("classify", source, tmp_path / "o.laz", "--dtm", tmp_path / "o.tif")
-    assert code == 1 and f"{axis.lower()} of all points of" in told and "limit of the integ" in told
+    assert code == 1 and f"{axis.lower()} of all points" in told and "limit of the integ" in told
 
 
 @pytest.mark.parametrize("axis", ["Y", "Z"])
@@ -70,4 +72,4 @@ def test_some_coordinates_that_were_cut_off_are_told(tmp_path, axis, is_survey):
     target = tmp_path / ("out" if is_survey else "o.laz")
     source = source.parent if is_survey else source
     code, _, told = said("classify", source, target, *FAST_WORDS)
-    assert code == 0 and f"{axis.lower()} of some points of a.laz is" in told
+    assert code == 0 and f"{axis.lower()} of some points of a.laz" in told

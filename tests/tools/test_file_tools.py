@@ -61,7 +61,7 @@ def test_a_new_tool_is_a_function_of_the_library(toy, land, tmp_path):
     done = bare_earth.lift(land, tmp_path / "high.tif", lift=3, table=tmp_path / "cells.csv")
     assert done.cell_count > 0 and (tmp_path / "cells.csv").read_text().startswith("cells")
     assert f"{toy.line}\n\n{toy.about}" in bare_earth.lift.__doc__
-    with pytest.raises(TypeError, match=r"lift.. has no parameter lifted. Did you mean lift"):
+    with pytest.raises(TypeError, match=r"lift\(\) .*lifted\b.* lift\b"):
         bare_earth.lift(land, tmp_path / "high.tif", lifted=3)
 
 
@@ -69,10 +69,10 @@ def test_a_new_tool_is_a_function_of_the_library(toy, land, tmp_path):
     ("output", "table", "words"),
     [
         ("in/dtm.tif", None, "same file"),
-        ("high.png", None, "name it .tif"),
+        ("high.png", None, r"\.tif"),
         ("none/high.tif", None, "does not exist"),
-        ("high.tif", "cells.txt", "name it .csv"),
-        ("high.csv", "high.csv", "Two outputs are the same file"),
+        ("high.tif", "cells.txt", r"\.csv"),
+        ("high.csv", "high.csv", "same file"),
     ],
 )
 def test_outputs_are_checked_before_the_work(toy, land, tmp_path, output, table, words):

@@ -2,6 +2,7 @@
 
 import dataclasses
 import json
+import re
 
 import laspy
 import numpy as np
@@ -123,11 +124,11 @@ def test_places_without_a_value_have_no_height_and_it_is_told(tmp_path):
     assert empty.any() and np.array_equal(np.isnan(values), empty)
     # Beside the hole, the other neighbours count: half a cell of the slope at most.
     np.testing.assert_allclose(values[~empty], true_heights(source)[~empty], atol=0.08)
-    text = f"{np.count_nonzero(empty):,} of 4,000 points have no height (NaN)"
+    text = f"{np.count_nonzero(empty):,} of 4,000 points"
     assert any(text in told for told in progress.infos + progress.warnings)
-    with pytest.raises(BareEarthError, match="as an extra dimension"):
+    with pytest.raises(BareEarthError, match="extra dimension"):
         heights(source, tmp_path / "z.las", output_as="z", dtm=raster)
-    with pytest.raises(BareEarthError, match=r"no value at any point of .*in\.las"):
+    with pytest.raises(BareEarthError, match=r"no value .*in\.las"):
         heights(source, tmp_path / "none.las", dtm=dtm(tmp_path / "small.tif", side=1))
     assert not (tmp_path / "z.las").exists() and not (tmp_path / "none.las").exists()
 
@@ -139,7 +140,7 @@ def test_a_raster_in_another_crs_is_refused(tmp_path, many):
     raster = dtm(tmp_path / "dtm.tif", epsg=25833)
     target = tmp_path / ("out" if many else "out.las")
     code, _, told = said("height", source.parent if many else source, target, "--dtm", raster)
-    assert code and "33N) than " in told and "Reproject the raster first" in told
+    assert code and "33N) than " in told and "Reproject the raster" in told
     assert not list(tmp_path.glob("out*/*.las")) and not (tmp_path / "out.las").exists()
 
 
@@ -196,13 +197,13 @@ def test_points_far_above_a_raster_or_above_another_datum_are_told(tmp_path):
         raster.write(raster.read() - 47.0)
     heights(source, tmp_path / "out.las", dtm=far, progress=progress)
     (warning,) = progress.warnings
-    assert "Nearly all points lie at least 48." in warning and "vertical datums" in warning
+    assert "at least 48." in warning and "vertical datums" in warning
     here, there = (crs_of_wkt(wkt_of_text(f"EPSG:25832+{code}")) for code in (7837, 5621))
     raster = dataclasses.replace(HeightRaster.of(far), crs=there)
     raster.tell(here, progress)
     feet = crs_of_wkt(wkt_of_text("EPSG:25832+8228"))
     dataclasses.replace(raster, crs=feet, states_unit=True).tell(feet, progress)
-    assert "metre by its band, which is used, and in foot by its CRS" in progress.warnings[2]
+    assert re.search("metre by its band, .* foot by its CRS", progress.warnings[2])
     assert "EVRF2007 height" in progress.warnings[1] and "DHHN2016 height" in progress.warnings[1]
 
 

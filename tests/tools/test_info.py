@@ -101,7 +101,7 @@ def right(tmp_path):
 def test_what_is_right_passes_all_checks(right):
     found = bare_earth.info(right)
     assert set(found.checks.values()) == {0}
-    assert "checks     18 of 18 passed" in found.lines()
+    assert any("18 of 18 passed" in line for line in found.lines())
     assert found.strips == {11: 30, 12: 30} and found.all_zero == [
         "scan_angle", "edge_of_flight_line", "green", "blue",
     ]  # fmt: skip
@@ -113,7 +113,7 @@ def test_what_is_wrong_is_counted(name, suffix, tmp_path):
     count, changed = FAULTS[name]
     path = write(tmp_path / f"wrong{suffix}", **changed)
     code, text, _ = said("info", path)
-    assert code == 0 and f"failed     {name}: {count} (" in text
+    assert code == 0 and f"{name}: {count} (" in text
     code, text, _ = said("info", path, "--json")
     assert json.loads(text)["checks"][name] == count
 

@@ -207,15 +207,15 @@ def test_a_rotated_raster(tmp_path):
 
 NORTHERN = rasterio.Affine(1.0, 0.0, 3e6, 0.0, -1.0, 8_399_000.0)
 BAD = {
-    "geographic": (lambda path: write(path, terrain(), "EPSG:4326"), "not in a projected CRS"),
+    "geographic": (lambda path: write(path, terrain(), "EPSG:4326"), "projected CRS"),
     "Web Mercator": (
         lambda path: write(path, terrain(), "EPSG:3857", transform=NORTHERN),
-        r"2\.00 times too long",
+        r"2\.00 times",
     ),
     "empty": (lambda path: path.write_bytes(b""), "Cannot read"),
     "text": (lambda path: path.write_text("not a raster"), "Cannot read"),
     "missing": (lambda path: None, "does not exist"),
-    "no data": (lambda path: write(path, np.full((9, 9), np.nan)), "no height in band 1"),
+    "no data": (lambda path: write(path, np.full((9, 9), np.nan)), "band 1"),
     "complex": (lambda path: write(path, terrain(), dtype="complex64"), "not heights"),
 }
 
@@ -267,7 +267,7 @@ def test_a_raster_that_takes_more_memory_than_is_free_is_refused(tmp_path, monke
     ) as raster:
         raster.write(terrain().astype(np.float32), 1)
     monkeypatch.setattr(off_terrain, "free_memory", lambda: 100_000)
-    with pytest.raises(BareEarthError, match=r"150 x 120 cells, which take 0\.0 GB of memory"):
+    with pytest.raises(BareEarthError, match=r"150 x 120 cells.* 0\.0 GB"):
         remove_objects_file(source, target)
     assert not target.exists()
     monkeypatch.setattr(off_terrain, "free_memory", lambda: 1_000_000)

@@ -38,19 +38,19 @@ def test_text_from_a_command_line_becomes_numbers():
 @pytest.mark.parametrize(
     ("values", "message"),
     [
-        ({"angle": -1}, "Angle must be at least 0 deg, not -1."),
-        ({"angle": 91}, "Angle must be at most 90 deg, not 91."),
-        ({"angle": float("nan")}, "Angle must be a finite number, not nan."),
-        ({"angle": "steep"}, "Angle must be a number, not 'steep'."),
-        ({"angle": None}, "Angle must have a value."),
-        ({"count": 2.5}, "Count must be a whole number, not 2.5."),
-        ({"which": "first"}, "Which must be one of last, all, not first."),
-        ({"heights": [1, -2]}, "Heights must be at least 0 m, not -2."),
-        ({"heights": "12"}, "Heights must be a list of numbers, not '12'."),
+        ({"angle": -1}, "Angle .* at least 0 deg, not -1"),
+        ({"angle": 91}, "Angle .* at most 90 deg, not 91"),
+        ({"angle": float("nan")}, "Angle .* finite .* nan"),
+        ({"angle": "steep"}, "Angle .* number, not 'steep'"),
+        ({"angle": None}, "Angle .* value"),
+        ({"count": 2.5}, r"Count .* whole number, not 2\.5"),
+        ({"which": "first"}, "Which .* last, all, not first"),
+        ({"heights": [1, -2]}, "Heights .* at least 0 m, not -2"),
+        ({"heights": "12"}, "Heights .* list .* '12'"),
     ],
 )
 def test_values_that_are_not_allowed_are_refused_with_a_sentence(values, message):
-    with pytest.raises(BareEarthError, match=message.replace(".", r"\.")):
+    with pytest.raises(BareEarthError, match=message):
         Example(**values)
 
 

@@ -118,7 +118,7 @@ def test_heights_that_fit_no_offset_are_told(tmp_path):
     las.points.array["Z"][np.asarray(las.classification) != 2] = 2**31 - 1
     las.points.array["Z"][np.asarray(las.classification) == 2] = -(2**31)
     las.write(source)
-    with pytest.raises(BareEarthError, match="do not fit the scale 1e-09 of z"):
+    with pytest.raises(BareEarthError, match="scale 1e-09 of z"):
         bare_earth.heights(source, tmp_path / "out.las", output_as="z")
     assert not (tmp_path / "out.las").exists()
     bare_earth.heights(source, tmp_path / "out.las")
@@ -159,7 +159,7 @@ def test_a_dimension_of_another_type(tmp_path, kind):
     las.first[:], las.last[:] = np.arange(901), np.arange(901) + 5
     las.write(str(source))
     if kind == "u2":
-        with pytest.raises(BareEarthError, match="neither float nor double"):
+        with pytest.raises(BareEarthError, match=r"HeightAboveGround.* float"):
             bare_earth.heights(source, target)
         assert not target.exists()
         return
@@ -197,11 +197,11 @@ def test_a_single_ground_point_is_enough(tmp_path):
 def test_no_ground_is_told(tmp_path):
     scene(tmp_path / "in.las")
     source, out, ground = tmp_path / "in.las", tmp_path / "out.las", {"ground_classes": (9,)}
-    with pytest.raises(BareEarthError, match=r"none is of class 9, all are of classes 2, 6, 7"):
+    with pytest.raises(BareEarthError, match=r"class 9\b.* classes 2, 6, 7"):
         bare_earth.heights(source, out, **ground)
-    with pytest.raises(BareEarthError, match="Classify its ground first"):
+    with pytest.raises(BareEarthError, match=r"Classify .*ground first"):
         bare_earth.key_points(source, out, **ground)
-    with pytest.raises(BareEarthError, match="Classify its ground first"):
+    with pytest.raises(BareEarthError, match=r"Classify .*ground first"):
         bare_earth.terrain(source, dtm=tmp_path / "a.tif", **ground)
     assert [path.name for path in tmp_path.iterdir()] == ["in.las"]
 
@@ -261,13 +261,13 @@ def test_key_points_of_nothing_but_key_points(tmp_path):
 
 def test_no_ground_class_is_told(tmp_path):
     scene(tmp_path / "in.las")
-    with pytest.raises(BareEarthError, match="at least one ground class"):
+    with pytest.raises(BareEarthError, match="one ground class"):
         bare_earth.heights(tmp_path / "in.las", tmp_path / "out.las", ground_classes=())
 
 
 def test_a_class_that_does_not_fit_is_told(tmp_path):
     scene(tmp_path / "in.las", 1, "1.2")
-    with pytest.raises(BareEarthError, match="holds classes up to 31, not 40"):
+    with pytest.raises(BareEarthError, match="31, not 40"):
         bare_earth.key_points(tmp_path / "in.las", tmp_path / "out.las", key_class=40)
 
 
@@ -396,7 +396,7 @@ def test_all_rasters_or_none(tmp_path, monkeypatch):
     [
         ({}, "at least one raster"),
         ({"dtm": "a.tif", "dsm": "a.tif"}, "the same file"),
-        ({"chm": "a.png"}, "name it .tif"),
+        ({"chm": "a.png"}, r"\.tif"),
         ({"dsm": "none/a.tif"}, "does not exist"),
     ],
 )
@@ -449,7 +449,7 @@ def test_the_commands(tmp_path, capsys):
     assert main(["terrain", str(source)]) == 1
     assert "at least one raster" in capsys.readouterr().err
     assert main(["key-points", str(source), out[2], "--tolerance-above", "-1"]) == 2
-    assert "Tolerance above must be at least" in capsys.readouterr().err
+    assert "Tolerance above" in capsys.readouterr().err
 
 
 @pytest.mark.rest

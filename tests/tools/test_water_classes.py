@@ -192,26 +192,26 @@ def test_without_polygons_nothing_changes_and_the_user_is_told(tmp_path):
 
 def test_what_cannot_be_done_is_a_sentence(tmp_path):
     source, target = write(tmp_path / "in.las"), tmp_path / "out.las"
-    with pytest.raises(BareEarthError, match=r"lies in the polygons of water .* Give the polygons"):
+    with pytest.raises(BareEarthError, match=r"polygons of water .*CRS"):
         classify(source, target, polygons(origin=(0.0, 0.0)))
-    with pytest.raises(BareEarthError, match="has no ground points: none is of class 90,"):
+    with pytest.raises(BareEarthError, match=r"no ground .*class 90\b"):
         classify(write(tmp_path / "no.las", classes=1), target, ground_classes=(90,))
     with pytest.raises(BareEarthError, match="not a finite number"):
         classify(source, target, ((np.full((4, 2), np.nan),),))
     old = laspy.LasData(laspy.LasHeader(point_format=1, version="1.2"))
     old.x, old.y, old.z, old.classification = [EAST], [NORTH], [0.0], [2]
     old.write(str(tmp_path / "old.las"))
-    with pytest.raises(BareEarthError, match=r"holds classes up to 31, not 45.* ignored ground"):
+    with pytest.raises(BareEarthError, match=r"31, not 45.* ignored ground"):
         classify(tmp_path / "old.las", target, (), ignored_class=45)
     with pytest.raises(Cancelled):
         classify(source, target, progress=CancelAt(0.5))
     (tmp_path / "empty.geojson").write_text('{"type": "FeatureCollection", "features": []}')
     code, _, told = said("water-classes", source, target, "--water", tmp_path / "empty.geojson")
-    assert code == 1 and "holds no polygon" in told
+    assert code == 1 and "no polygon" in told
     assert said("water-classes", source, target)[0] == 2
     nowhere = tmp_path / "no" / "out.las"
     code, _, told = said("water-classes", source, nowhere, "--water", "automatic")
-    assert code == 1 and "no does not exist. Create it first." in told and "Water:" not in told
+    assert code == 1 and "no does not exist" in told and "Water:" not in told
     assert not target.exists()
 
 
