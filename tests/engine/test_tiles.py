@@ -2,6 +2,7 @@ import dataclasses
 import json
 import multiprocessing
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -160,10 +161,7 @@ def test_messages_that_differ_in_names_and_numbers_only_are_told_once(tmp_path, 
     progress = Heard()
     classify(folder, out, progress=progress, threads=1)
     (told,) = (text for text in progress.warnings if "return number" in text)
-    assert told == (
-        "0.laz: 3 points have no return number: they are taken as single returns."
-        " The same, with other numbers: 1.laz, 2.laz, 3.laz."
-    )
+    assert told.startswith("0.laz: 3 points ") and told.endswith(": 1.laz, 2.laz, 3.laz.")
 
 
 @pytest.mark.rest
@@ -461,8 +459,8 @@ def test_a_tile_without_points_that_can_be_ground_is_written_unchanged(six, out)
     assert summary.done_count == 7 and not summary.failures
     assert (out / "water.laz").read_bytes() == (six / "water.laz").read_bytes()
     (told,) = [text for text in progress.warnings if "unchanged" in text]
-    assert told.startswith("water.laz has no ground: its 30 points are written with unchanged")
-    assert told.endswith(" All are of class 9.")
+    assert told.startswith("water.laz has no ground: ")
+    assert re.search(r" 30 points .* class 9\.$", told)
     assert len(read_vpc(out / "classified.vpc")) == 7
 
 

@@ -1,5 +1,6 @@
 import dataclasses
 import itertools
+import re
 import threading
 import time
 
@@ -252,12 +253,11 @@ def test_blocks_without_ground_are_told_and_messages_told_once(monkeypatch):
     small = SlopeFilter(preset="whitebox", search_radius=5.0)
     (labels,) = labels_of([cloud_of(*survey())], small, blocks, 3, None, progress=told)
     assert told.infos == ["All the same."]
-    assert told.warnings[0] == "A southern block (in 2 of 6 blocks)."
+    southern, without = told.warnings
+    assert southern == "A southern block (in 2 of 6 blocks)."
     count = np.count_nonzero(labels == 0)
-    assert told.warnings[1:] == [
-        f"No ground was found in 2 of 6 blocks: their {count:,} points are not ground."
-        " Nothing here."
-    ]
+    assert re.search(f"2 of 6 blocks: .*{count:,} points", without)
+    assert without.endswith(" Nothing here.")
     assert count > 5000 and told.fractions == sorted(told.fractions)
 
 

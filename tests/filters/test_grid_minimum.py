@@ -115,11 +115,15 @@ def test_the_log_says_which_values_the_preset_chose_and_they_give_the_same_again
     found = classify(points, GridMinimum(preset="hilly"), told)
     chosen = GridMinimum(preset="hilly").resolve(points)
     heights = ", ".join(f"{height:g}" for height in chosen.height_thresholds)
-    assert told.infos == [
-        f"Grid minimum: preset hilly, cell size {chosen.cell_size:g} m, height thresholds"
-        f" {heights} m, final height {chosen.final_height:g} m, maximum object size"
-        f" {chosen.max_object_size:g} m."
-    ]
+    (info,) = told.infos
+    for value in (
+        "preset hilly",
+        f"cell size {chosen.cell_size:g} m",
+        f"height thresholds {heights} m",
+        f"final height {chosen.final_height:g} m",
+        f"maximum object size {chosen.max_object_size:g} m",
+    ):
+        assert value in info
     by_hand = GridMinimum(
         "hilly",
         chosen.cell_size,

@@ -53,7 +53,7 @@ def test_a_usual_value_far_from_all_heights_is_no_data(tmp_path, value):
     cells = read(path, heard)
     assert cells.mask.sum() == 16 and cells.mask[5:9, 5:9].all() and cells.min() > 99.0
     (line,) = told(heard)
-    assert line.startswith(f"{path} has 16 cells of {value:.6g}, far")
+    assert line.startswith(f"{path} has 16 cells of {value:.6g}, ")
 
 
 def test_other_kinds_of_cells_and_declared_values(tmp_path):

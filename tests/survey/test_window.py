@@ -326,7 +326,7 @@ def test_a_damaged_octree_is_told_and_loses_no_point(octree, damage):
     change_entries(octree, damage)
     box = (400_000.0, 5_000_000.0, 400_600.0, 5_000_600.0)
     assert_is_part(read_window(octree, box, heard), cloud, box)
-    assert any(text.startswith(f"The octree of {octree} is damaged") for text in heard.warnings)
+    assert any(f"octree of {octree} is damaged" in text for text in heard.warnings)
 
 
 @pytest.mark.parametrize("field", [3, 0, 5])

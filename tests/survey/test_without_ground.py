@@ -62,13 +62,16 @@ def test_a_file_without_ground_is_written_and_told(roof, classified):
     assert np.mean(classes_of(folder / "t00.laz") == 2) > 0.98
     for name in ("water.laz", "withheld.laz"):
         assert (folder / name).read_bytes() == (roof / name).read_bytes()
-    unchanged = "its 2,000 points are written with unchanged classes."
-    assert sorted(text for text in warnings if "no ground" in text) == [
-        f"first.laz has no ground: {unchanged} None is a last or single return.",
-        "t11.laz has no ground: its 2,000 points are written as not ground.",
-        f"water.laz has no ground: {unchanged} All are of class 9.",
-        f"withheld.laz has no ground: {unchanged} All are withheld.",
-    ]
+    told = sorted(text for text in warnings if "no ground" in text)
+    fates = {
+        "first": "unchanged .* last or single",
+        "t11": "not ground",
+        "water": "unchanged .* class 9",
+        "withheld": "unchanged .* withheld",
+    }
+    assert len(told) == len(fates)
+    for text, (name, fate) in zip(told, fates.items()):
+        assert re.search(rf"^{name}\.laz has no ground.* 2,000 points .*{fate}\b", text)
     listed = json.loads((folder / "classified.vpc").read_text("utf-8"))["features"]
     assert len(listed) == 12
     without = {each.name: each.why_no_ground for each in summary.tiles if not each.found_ground}
@@ -92,7 +95,7 @@ def test_of_the_ground_alone_files_without_any_are_named_and_not_written(roof, t
     summary = classify(files, out, **FAST, ground_only=True, progress=progress)
     assert not summary.failures and list(bytes_of(out)) == ["t00.laz"]
     (told,) = (text for text in progress.warnings if "not written" in text)
-    assert told.startswith("2 files have no ground: first.laz (2,000), water.laz (2,000). Their")
+    assert told.startswith("2 files have no ground: first.laz (2,000), water.laz (2,000).")
     with pytest.raises(BareEarthError, match="None of the 2 files has ground"):
         classify(files[1:], out, **FAST, ground_only=True)
 

@@ -65,7 +65,7 @@ def test_a_clip_is_assessed_against_the_whole_reference(tmp_path, expected, orde
     assert figures(result) == expected
     assert (result.classified_only, result.reference_only) == (0, COUNT - len(CLIP))
     (told,) = (text for text in progress.infos if "have no partner" in text)
-    assert told.startswith(f"{len(CLIP):,} points are in both files")
+    assert told.startswith(f"{len(CLIP):,} points are in both")
     assert progress.fractions[-1] == 1 and progress.fractions == sorted(progress.fractions)
     page = (tmp_path / "r.html").read_text(encoding="utf-8")
     assert f"{COUNT - len(CLIP):,} of the reference" in page

@@ -210,7 +210,7 @@ def test_bridges_without_water_below_them_are_told(tmp_path, capsys):
         write(tmp_path / f"{name}.laz", *columns, scene.classes)
         run("water", tmp_path / f"{name}.laz", tmp_path / f"{name}.geojson")
         told.append(capsys.readouterr().err)
-    place = re.search(r"1 bridge has no water below it that was found \(at (\d+) (\d+)\)", told[0])
+    place = re.search(r"1 bridge .* water .*\(at (\d+) (\d+)\)", told[0])
     assert [int(value) for value in place.groups()] == pytest.approx(
         [EAST + MIDDLE, NORTH + 150], abs=15
     )

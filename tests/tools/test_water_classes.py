@@ -187,7 +187,8 @@ def test_without_polygons_nothing_changes_and_the_user_is_told(tmp_path):
     source, progress = write(tmp_path / "in.las"), Heard()
     classify(source, tmp_path / "out.las", (), progress=progress)
     assert (tmp_path / "out.las").read_bytes() == source.read_bytes()
-    assert progress.warnings == ["There is no polygon of water, so that no class changes."]
+    (warning,) = progress.warnings
+    assert "no polygon of water" in warning
 
 
 def test_what_cannot_be_done_is_a_sentence(tmp_path):
