@@ -109,11 +109,11 @@ class OneFile(Execution):
 
     def _work_group(self, group: Sequence[Step], progress: Progress, outputs: Outputs) -> None:
         points, works = self._points, []
-        first = points.freeing_memory(progress.part(0.0, 0.04))
+        first = points.freeing_memory(progress.part(0.0, 0.03))
         for step in group:
             if isinstance(step, Sink):
-                frame = points.frame_of(step)
-                step = step.with_all_points(partial(self._read, first), frame, first)
+                read, frame = partial(self._read, first), points.frame_of(step)
+                step = step.with_all_points(read, frame, progress.part(0.03, 0.04))
             works.append(Work(step, points.store_for(step)))
         reading = points.freeing_memory(progress.part(0.04, 0.08))
         is_last = not any(isinstance(step, PointStep) for step in self.steps)

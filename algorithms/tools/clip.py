@@ -70,7 +70,6 @@ class Clip(PointStep):
         return Marks(none, none, none)
 
     def result(self, path: Path, allocate: Allocate) -> ClippedPoints:
-        """Return an object that finds the points of a file in the area."""
         return ClippedPoints(self)
 
 

@@ -159,7 +159,6 @@ class MeasureHeights(PointStep):
         return positions, surface.heights_above(points, progress.part(0.45, 1.0))
 
     def result(self, path: Path, allocate: Allocate) -> HeightsOfPoints:
-        """Return an object that collects the heights of a file."""
         return HeightsOfPoints(self, path, allocate)
 
 
@@ -225,7 +224,6 @@ class HeightsOfPoints(PointResult):
         )
 
     def summary(self, name: str, class_counts: dict[int, int]) -> HeightSummary:
-        """Return the lowest and the highest height."""
         extremes = self._lowest, self._highest
         if self._lowest > self._highest:
             extremes = np.nan, np.nan

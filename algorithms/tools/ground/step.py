@@ -158,7 +158,6 @@ class LabelGround(PointStep):
             report_continued(sum(of_block.continued for of_block in notes), progress)
 
     def result(self, path: Path, allocate: Allocate) -> ClassifiedPoints:
-        """Return an object that counts the classified points of a file."""
         return ClassifiedPoints(self, path)
 
 
@@ -203,8 +202,8 @@ class ClassifiedPoints(PointResult):
         return self._area_ground_count if self._step.output.area_only else self._ground_count
 
     def report(self, progress: Progress, failure: str | None = None) -> None:
-        """Report on a file: how many points took part in one of many, what is neither ground nor
-        object in the only one; refuse that without ground if only ground is written.
+        """Report how many points of one of many files took part, or what was found in the only
+        file; refuse the only file if there is no ground to write.
         """
         if failure is not None:
             if self._counts.of_returns:
@@ -248,7 +247,6 @@ class ClassifiedPoints(PointResult):
         return Edits()
 
     def summary(self, name: str, class_counts: dict[int, int]) -> Summary:
-        """Return the numbers of points."""
         counts, to_class = self._counts, self._step.selection.to_class
         return Summary(
             name,
