@@ -107,13 +107,6 @@ class Blocks:
     def block(self, column: int, row: int) -> PlaneBlock:
         return PlaneBlock(column, row, self.side, self.start)
 
-    def corner(self, block: PlaneBlock) -> Corner:
-        """Return the place that is (0, 0) while a block, or a part of a block, is computed."""
-        # The corner is near the block, so that large coordinates do not lose digits. It does not
-        # depend on the extent of the survey, so results do not depend on it either.
-        share = round(self.side / block.side)
-        return block.column // share * self.side, block.row // share * self.side
-
     @property
     def leaf_side(self) -> float:
         """Side of the smallest possible blocks."""
@@ -169,19 +162,6 @@ class Blocks:
             counts += np.bincount(row * width + column, minlength=width**2).reshape(counts.shape)
         return counts
 
-    def contents(
-        self, block: PlaneBlock, store: Store, progress: Progress = SILENT, only: str | None = None
-    ) -> BlockPoints:
-        """Return the points of a block and its buffer relative to its `corner`; for `only`, see
-        `Store.read`.
-        """
-        box, corner = self.window(block), self.corner(block)
-        leaves = store.leaves.within(box)
-        west, south, east, north = (side - start for side, start in zip(box, corner * 2))
-        is_inside = store.leaves.are_inside(leaves, box)
-        part = None if is_inside else (west, south, east, north)
-        return store.read(leaves, part, corner, progress, only)
-
 
 class Visit(NamedTuple):
     """A block while a step works on it."""
@@ -194,10 +174,19 @@ class Visit(NamedTuple):
 
     @property
     def corner(self) -> Corner:
-        return self.blocks.corner(self.block)
+        """The place that is (0, 0) in `contents`."""
+        # The corner is near the block, so that large coordinates do not lose digits. It does not
+        # depend on the extent of the survey, so results do not depend on it either.
+        share, side = round(self.blocks.side / self.block.side), self.blocks.side
+        return self.block.column // share * side, self.block.row // share * side
 
     def contents(self, progress: Progress = SILENT, only: str | None = None) -> BlockPoints:
-        return self.blocks.contents(self.block, self.store, progress, only)
+        """Return the points of the block and its buffer; for `only`, see `Store.read`."""
+        box, leaves = self.blocks.window(self.block), self.store.leaves
+        west, south, east, north = (side - start for side, start in zip(box, self.corner * 2))
+        touched = leaves.within(box)
+        part = None if leaves.are_inside(touched, box) else (west, south, east, north)
+        return self.store.read(touched, part, self.corner, progress, only)
 
     def core(self, contents: BlockPoints) -> np.ndarray:
         """Return which points get a value in this block, bool (n,)."""

@@ -16,7 +16,7 @@ from bare_earth import BareEarthError, Cancelled, Progress
 from bare_earth.algorithms.classes.selection import Selection
 from bare_earth.algorithms.core.memory import free_memory
 from bare_earth.algorithms.core.threads import workers
-from bare_earth.algorithms.engine.blocks import Blocks
+from bare_earth.algorithms.engine.blocks import Blocks, Visit
 from bare_earth.algorithms.engine.blockwise import run_jobs
 from bare_earth.algorithms.engine.disk_store import DiskStore
 from bare_earth.algorithms.engine.memory import Cost, Resources
@@ -101,7 +101,7 @@ def test_every_point_lies_in_one_block_and_crowded_blocks_are_quartered():
         times += inside
         sides.add(block.side)
         assert np.count_nonzero(inside) <= 1500 or block.side == 10
-        contents = blocks.contents(block, store)
+        contents = Visit(block, blocks, store, False, {}).contents()
         west, south, east, north = blocks.window(block)
         seen = (points.x >= west) & (points.x < east) & (points.y >= south) & (points.y < north)
         assert np.array_equal(np.sort(contents.positions), np.flatnonzero(seen))
@@ -133,11 +133,12 @@ def test_a_block_gets_the_points_of_its_window_that_take_part(tmp_path, request,
     frame, seen = survey_frame(cloud.crs), 0
     points = cloud.points(slice(None), frame)
     for block in blocks.over(store):
-        contents = blocks.contents(block, store)
+        visit = Visit(block, blocks, store, False, {})
+        contents = visit.contents()
         west, south, east, north = blocks.window(block)
         expected = selected & (points.x >= west) & (points.x < east)
         expected = np.flatnonzero(expected & (points.y >= south) & (points.y < north))
-        local = cloud.points(expected, frame.moved(blocks.corner(block)))
+        local = cloud.points(expected, frame.moved(visit.corner))
         rows = [
             np.column_stack([*value, *flags])
             for value, *flags in (
