@@ -21,9 +21,9 @@ from .stable import LIMIT, Alignment, Scatter
 _RIM = 3
 _PART = 0.3
 # Standard errors by which the mean of a place must differ from none, as some of many thousand areas
-# differ by chance: if half of its cells have ground points of both dates near them, if not, where
-# nobody knows, and without expected errors, where more is unforeseen.
-_SEEN, _IN_GAPS, _UNKNOWN, _OF_SLOPES = 3.8, 5.0, 4.0, 6.0
+# differ by chance: if half of its cells have ground points of both dates near them, where nobody
+# knows, and where more is unforeseen: across gaps, and without expected errors.
+_SEEN, _UNKNOWN, _UNFORESEEN = 3.8, 4.0, 6.0
 # The edge of a place can lie anywhere between ground points: by this share of their distance.
 _OFF = 0.5
 _NEIGHBOURS = ((0, 1), (1, -1), (1, 0), (1, 1))
@@ -189,10 +189,10 @@ def _joined(
 
 def _certain(scatter: Scatter, distance: np.ndarray) -> float:
     """Return by how many standard errors a place must differ, given the distances of its cells."""
-    if not scatter.by_error:
-        return _OF_SLOPES
     middle = float(np.quantile(distance, 0.5))
-    return _UNKNOWN if math.isnan(middle) else _SEEN if middle <= SEEN else _IN_GAPS
+    if middle > SEEN or not scatter.by_error:
+        return _UNFORESEEN
+    return _UNKNOWN if math.isnan(middle) else _SEEN
 
 
 def connected(cells: np.ndarray, columns: int) -> list[np.ndarray]:
