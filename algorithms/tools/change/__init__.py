@@ -178,26 +178,22 @@ def features_of(found: Found) -> Iterator[Feature]:
 
 
 _DATE = "a terrain model (a raster of heights), or a point cloud (a file, a folder or a .vpc)."
-_ERROR = "The expected error of the {} terrain model, as `terrain()` makes it, if that is a raster."
 TOOL = FileTool(
     work=change,
     sets=(Comparison, Places, TileMethod, Resources),
     inputs=(
         Input("old", "terrain", help=f"The older survey: {_DATE}", label="Old survey"),
         Input("new", "terrain", help=f"The newer survey: {_DATE}", label="New survey"),
-        Input(
-            "old_error",
-            "raster",
-            help=_ERROR.format("old"),
-            label="Expected error of the old DTM",
-            optional=True,
-        ),
-        Input(
-            "new_error",
-            "raster",
-            help=_ERROR.format("new"),
-            label="Expected error of the new DTM",
-            optional=True,
+        *(
+            Input(
+                f"{date}_error",
+                "raster",
+                help=f"The expected error of the {date} terrain model, as `terrain()` makes it, if"
+                " that is a raster.",
+                label=f"Expected error of the {date} DTM",
+                optional=True,
+            )
+            for date in ("old", "new")
         ),
         Input(
             "like",

@@ -10,6 +10,7 @@ from ...core.progress import Progress
 from ...las.cloud import PointCloud
 from ...survey.files import Inputs
 from ...survey.window import taken_near
+from ..contours import corners_of
 from .pair import Pair
 from .places import ChangePlace
 from .stable import Alignment
@@ -82,21 +83,19 @@ class _Witnesses:
 
     def seen(self, cloud: Inputs, progress: Progress) -> np.ndarray:
         """Return the share of the cells of each place whose points tell that it was there."""
-        survey = cloud.open()
-        x, a, b, y, c, d = self._pair.grid.geotransform
-        boxes = []
+        survey, boxes = cloud.open(), []
         for place in self._places:
-            rows, columns = (np.array((part.start, part.stop)) for part in place.window)
-            ends = np.sort([x + a * columns + b * rows, y + c * columns + d * rows])
-            boxes.append((*ends[:, 0].tolist(), *ends[:, 1].tolist()))
+            ends = np.array([(part.start, part.stop) for part in place.window]).T - 0.5
+            corners = np.sort(corners_of(ends, self._pair.grid), axis=0)
+            boxes.append((*corners[0].tolist(), *corners[1].tolist()))
         shares = progress.shares(*(max(tile.count, 1) for tile in survey.tiles))
         for tile, share in zip(survey.tiles, shares):
             taken_near(tile, boxes, self._look_at, share.quiet())
-        has, there = np.zeros((2, len(self._code)), dtype=bool)
-        has[self._order], there[self._order] = self._has, self._is_there
-        starts = np.cumsum([0, *(len(place.rows) for place in self._places)], dtype=np.int64)[:-1]
-        counts = (np.add.reduceat(values.astype(np.intp), starts) for values in (there, has))
-        is_there, any_there = counts
+        number = np.repeat(np.arange(len(boxes)), [len(place.rows) for place in self._places])
+        is_there, any_there = (
+            np.bincount(number[self._order[values]], minlength=len(boxes))
+            for values in (self._is_there, self._has)
+        )
         return is_there / np.maximum(any_there, 1)
 
     def _look_at(self, part: PointCloud) -> None:
