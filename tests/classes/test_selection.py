@@ -191,7 +191,7 @@ def test_no_warning_of_return_numbers_where_all_returns_are_wanted():
         (Selection(), cloud_of([7, 18]), r"classes 7, 18\b"),
         (Selection(from_classes=(2,)), cloud_of([1, 5]), r"only the classes 1, 5\b"),
         (Selection(), cloud_of([9, 9]), r"only the class 9\b"),
-        (Selection(), cloud_of([1, 1], withheld=[1, 1]), "All.* withheld"),
+        (Selection(), cloud_of([1, 1], withheld=[1, 1]), "withheld.* flag"),
         (
             Selection(overlap="leave-out"),
             with_overlap([1, 12], [1, 0]),

@@ -257,7 +257,7 @@ def test_two_outputs_of_one_name_are_refused(tmp_path):
     (tmp_path / "folder").mkdir()
     same = tmp_path / "folder" / ".." / "dtm.tif"
     check_distinct([tmp_path / "a.las", None, same, None])
-    with pytest.raises(BareEarthError, match=r"same file, .*dtm\.tif"):
+    with pytest.raises(BareEarthError, match=r"outputs .*same file, .*dtm\.tif"):
         check_distinct([tmp_path / "dtm.tif", None, same])
     with pytest.raises(BareEarthError, match="same file"):  # none of them is there yet
         check_output(tmp_path / "dtm.tif", (same,))

@@ -444,7 +444,7 @@ def test_an_extent_that_the_points_cannot_have(las, place, value):
     found = open_survey([sound, odd])
     assert [tile.path for tile in found.tiles] == [sound]
     assert "extent" in found.broken[0].reason
-    with pytest.raises(BareEarthError, match="extent"):
+    with pytest.raises(BareEarthError, match="not state the extent"):
         write_vpc(las.folder / "all.vpc", [odd])
 
 

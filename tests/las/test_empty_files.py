@@ -83,7 +83,7 @@ def test_tools_that_read_many_files_leave_out_those_without_points(tiles, tmp_pa
     assert bare_earth.quality(tiles).points == 1000
     with pytest.raises(BareEarthError, match="no points"):
         bare_earth.terrain(tiles / "b.laz", dtm=tmp_path / "none.tif")
-    with pytest.raises(BareEarthError, match="None of the files"):
+    with pytest.raises(BareEarthError, match="None of the files holds"):
         bare_earth.quality([tiles / "b.laz", tiles / "c.las"])
 
 

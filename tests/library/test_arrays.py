@@ -297,7 +297,7 @@ def test_an_error_names_the_argument(words):
 
 
 def test_ground_that_is_not_there_is_told():
-    with pytest.raises(bare_earth.BareEarthError, match="no ground points"):
+    with pytest.raises(bare_earth.BareEarthError, match="cloud has no ground"):
         arrays.heights(X, X, X)
     with pytest.raises(bare_earth.BareEarthError, match=r"raster dem, .* dtm"):
         arrays.terrain(X, X, X, rasters="dem")

@@ -201,7 +201,7 @@ def test_errors_are_sentences(survey, small_blocks, tmp_path):
         arrays.terrain(blocks, breaklines=[np.array([(0.0, 0.0, 1.0), (9.0, 9.0, 1.0)])])
     with pytest.raises(bare_earth.BareEarthError, match="No block"):
         arrays.blocks(survey / "raw", extent=(0, 0, 9, 9))
-    with pytest.raises(bare_earth.BareEarthError, match=r"terrain\(\)"):
+    with pytest.raises(bare_earth.BareEarthError, match=r"only terrain\(\)"):
         arrays.heights(blocks)
     (tmp_path / "a.laz").write_bytes((survey / "raw" / "a.laz").read_bytes())
     (tmp_path / "b.laz").write_bytes(b"LASF")

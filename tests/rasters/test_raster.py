@@ -53,7 +53,7 @@ def test_a_raster_that_is_long_in_one_direction_counts_by_its_cells(tmp_path, co
         "<GeoTransform>0, 1, 0, 0, 0, -1</GeoTransform>"
         '<VRTRasterBand dataType="Byte" band="1"/></VRTDataset>'
     )
-    with pytest.raises(BareEarthError, match="memory"):
+    with pytest.raises(BareEarthError, match=r"too many .*memory"):
         read_raster(path)
 
 

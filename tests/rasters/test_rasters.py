@@ -343,9 +343,9 @@ def test_rasters_of_single_files_that_would_do_harm_are_refused(survey, named, t
         bare_earth.terrain(survey / "many", **named, raster_per_file=True)
     (tmp_path / "dtm").unlink()
     alike = [write(tmp_path / f"a.{suffix}", strip(300), classes=2) for suffix in ("las", "laz")]
-    with pytest.raises(BareEarthError, match=r"both .*a\.tif"):
+    with pytest.raises(BareEarthError, match=r"become a\.tif"):
         bare_earth.terrain(alike, **named, raster_per_file=True)
-    with pytest.raises(BareEarthError, match=r"both .*a\.tif"):
+    with pytest.raises(BareEarthError, match=r"become a\.tif"):
         bare_earth.classify(alike, tmp_path / "out", **named, raster_per_file=True, **SLOPE)
     assert sorted(os.listdir(tmp_path)) == ["a.las", "a.laz"]
 

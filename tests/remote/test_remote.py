@@ -110,7 +110,7 @@ def test_a_whole_file_is_refused_before_it_is_read(server, tmp_path):
 
 def test_a_signature_that_has_expired_is_told(server, tmp_path):
     server.fault = lambda number, path: "403"
-    with pytest.raises(BareEarthError, match="expired") as told:
+    with pytest.raises(BareEarthError, match=r"expired.* address") as told:
         fetched(f"{server.add('a', DATA)}?se=2026&sig=SECRET", tmp_path / "parts")
     assert "SECRET" not in str(told.value)
 
@@ -125,7 +125,7 @@ def test_a_file_that_is_replaced_meanwhile_is_refused(server, tmp_path, fault):
         return fault
 
     server.fault = replace
-    with pytest.raises(BareEarthError, match="has changed"):
+    with pytest.raises(BareEarthError, match="changed while"):
         fetched(address, tmp_path / "parts")
     # The next run begins anew.
     assert fetched(address, tmp_path / "parts")[0] == wanted(DATA[::-1])
@@ -383,7 +383,7 @@ class Store:
     [
         ("missing", "s3://bucket/a .* exist"),
         ("denied", "may not read s3://bucket/a"),
-        ("changed", "has changed"),
+        ("changed", "changed while"),
         ("short", "after 6 attempts"),
         ("", None),
     ],

@@ -466,8 +466,8 @@ def test_layers_of_other_formats(survey, tmp_path, suffix):
 def test_what_cannot_be_done_is_refused_before_the_work(survey, tmp_path, capsys):
     given = points(places(3))
     for name, file, words in [
-        ("report", "r.pdf", r"\.html"),
-        ("table", "r.xls", r"\.csv"),
+        ("report", "r.pdf", r"r\.pdf: .*\.html"),
+        ("table", "r.xls", r"r\.xls: .*\.csv"),
         ("residuals", "r.kml", "Name it so"),
         ("report", "missing/r.html", "missing .*exist"),
     ]:

@@ -328,7 +328,7 @@ def test_a_run_that_classifies_makes_the_terrain_of_what_it_writes(tmp_path, how
 
 def test_a_run_without_rasters_takes_no_lines(wall, tmp_path):
     source, lines = wall
-    with pytest.raises(BareEarthError, match="raster to make"):
+    with pytest.raises(BareEarthError, match="Choose a raster"):
         classify(source, tmp_path / "out.laz", breaklines=lines)
 
 

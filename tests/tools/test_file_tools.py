@@ -69,10 +69,10 @@ def test_a_new_tool_is_a_function_of_the_library(toy, land, tmp_path):
     ("output", "table", "words"),
     [
         ("in/dtm.tif", None, "same file"),
-        ("high.png", None, r"\.tif"),
+        ("high.png", None, r"high\.png: .*\.tif"),
         ("none/high.tif", None, "does not exist"),
-        ("high.tif", "cells.txt", r"\.csv"),
-        ("high.csv", "high.csv", "same file"),
+        ("high.tif", "cells.txt", r"cells\.txt: .*\.csv"),
+        ("high.csv", "high.csv", "outputs .*same file"),
     ],
 )
 def test_outputs_are_checked_before_the_work(toy, land, tmp_path, output, table, words):

@@ -126,7 +126,7 @@ def test_places_without_a_value_have_no_height_and_it_is_told(tmp_path):
     np.testing.assert_allclose(values[~empty], true_heights(source)[~empty], atol=0.08)
     text = f"{np.count_nonzero(empty):,} of 4,000 points"
     assert any(text in told for told in progress.infos + progress.warnings)
-    with pytest.raises(BareEarthError, match="extra dimension"):
+    with pytest.raises(BareEarthError, match="as an extra dimension"):
         heights(source, tmp_path / "z.las", output_as="z", dtm=raster)
     with pytest.raises(BareEarthError, match=r"no value .*in\.las"):
         heights(source, tmp_path / "none.las", dtm=dtm(tmp_path / "small.tif", side=1))

@@ -396,7 +396,7 @@ def test_all_rasters_or_none(tmp_path, monkeypatch):
     [
         ({}, "at least one raster"),
         ({"dtm": "a.tif", "dsm": "a.tif"}, "the same file"),
-        ({"chm": "a.png"}, r"\.tif"),
+        ({"chm": "a.png"}, r"a\.png: .*\.tif"),
         ({"dsm": "none/a.tif"}, "does not exist"),
     ],
 )
