@@ -1,5 +1,6 @@
 import csv
 import json
+import re
 
 import laspy
 import numpy as np
@@ -135,7 +136,7 @@ def test_a_layer_with_repeated_points_missing_heights_and_control_points(
     assert done and results["COUNTED"] == len(rows) - 3, log.text
     states = {f["NAME"]: f["STATE"] for f in QgsVectorLayer(results["OUTPUT"]).getFeatures()}
     assert (states["CHK1"], states["GCP3"]) == ("no height", "control")
-    assert "1 listed again (each point counts once): CHK0" in log.text
+    assert re.search("1 listed again.* CHK0", log.text)
 
 
 def test_polygons_as_checkpoints_are_refused(cloud):
@@ -155,9 +156,7 @@ def test_held_out_points_need_no_checkpoints(cloud, tmp_path):
 
     results = processing.run(ALGORITHM, {"INPUT": str(cloud), "HOLD_OUT": 0.05})
     assert results["HOLD_OUT_RMSE"] > 0 and "OUTPUT" not in results
-    with pytest.raises(
-        QgsProcessingException, match="Give 'Checkpoints', or a share of points with 'Share of "
-    ):
+    with pytest.raises(QgsProcessingException, match=r"'Checkpoints'.* 'Share of "):
         processing.run(ALGORITHM, {"INPUT": str(cloud)})
 
 

@@ -101,7 +101,7 @@ def test_ground_only_with_heights(name, registry, scene, out, context, log):
     assert len(cloud.points) == results["GROUND_COUNT"] < results["POINT_COUNT"] == scene.count
     assert set(np.unique(cloud.classification)) == {2}
     assert np.allclose(cloud["HeightAboveGround"], 0.0, atol=1e-3)
-    assert "points that are not ground are left out" in log.text
+    assert "points that are not ground" in log.text
     with open(results["OUTPUT"], "rb") as file:
         before = file.read()
     command = next(shlex.split(line) for line in log.said if line.startswith("bare-earth "))
@@ -177,7 +177,7 @@ def test_classes_with_a_meaning_stay_unless_they_are_given(
     assert done
     stays = (np.asarray(laspy.read(results["OUTPUT"]).classification)[water] == 9).all()
     assert stays == (not chosen)
-    assert ("of class 9 (water) keep their class" in log.text) == (not chosen)
+    assert ("of class 9 (water) keep" in log.text) == (not chosen)
 
 
 def test_parameters_reach_the_classifier(algorithm, scene, out, context, log):
@@ -249,7 +249,7 @@ def test_a_missing_decompressor_is_told(algorithm, scene, out, context, log, mon
     assert algorithm.provider().supportedOutputPointCloudLayerExtensions() == ["las"]
     _, done = algorithm.run(everything(scene, out, ".las"), context, log)
     assert not done
-    assert "needs lazrs" in log.text and "Plugins > Bare Earth > LAZ support" in log.text
+    assert "needs lazrs" in log.text and "LAZ support" in log.text
     assert os.listdir(out) == []
 
 
@@ -271,7 +271,7 @@ def test_other_layers_are_refused(algorithm, scene, out, context, log):
     for value in (layer, layer.id(), "terrain"):
         parameters = {**everything(scene, out), "INPUT": value}
         possible, text = algorithm.checkParameterValues(parameters, context)
-        assert not possible and "terrain is not a point cloud" in text
+        assert not possible and "not a point cloud" in text
 
 
 def test_values_out_of_range_are_refused(algorithm, scene, out, context):

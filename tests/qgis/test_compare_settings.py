@@ -127,7 +127,7 @@ def test_errors_are_one_line_and_a_cancel_leaves_nothing(registry, parameters, t
     with pytest.raises(QgsProcessingException, match="at most 1,000 m"):
         far = QgsReferencedRectangle(QgsRectangle(5e5, 57e5, 502_000, 5_702_000), UTM)
         processing.run(ALGORITHM, {**parameters, "EXTENT": far})
-    with pytest.raises(QgsProcessingException, match="Settings must be one of"):
+    with pytest.raises(QgsProcessingException, match=r"Settings .* one of"):
         processing.run(ALGORITHM, {**parameters, "SETTINGS": ["slope:moon"]})
     algorithm = registry.createAlgorithmById(ALGORITHM)
     assert algorithm.run(parameters, context, Log(cancel_at=50))[0] == {}

@@ -63,7 +63,7 @@ def test_the_terrain_model_respects_them_and_the_classes_stay(name, scene, tmp_p
     classes, said = run(name, scene, tmp_path, DTM=path, BREAKLINES=line)
     assert np.nanmax(heights(path)) > 109.0
     assert np.array_equal(classes, plain)
-    assert "add --breaklines breaklines.geojson." in said
+    assert "--breaklines breaklines.geojson" in said
 
 
 def moved(wkt, crs):
@@ -94,7 +94,7 @@ def test_layers_outside_of_the_points_are_the_same_error(scene, tmp_path, name, 
     layer = layer_of(kind, moved(text, crs), crs + field)
     if field:
         layer.dataProvider().changeAttributeValues({1: {0: 2}})
-    with pytest.raises(QgsProcessingException, match=r"No point of .* the points lie in x 500000"):
+    with pytest.raises(QgsProcessingException, match=r"points lie in x 500000"):
         run("slopefilter", scene, tmp_path, DTM=str(tmp_path / "dtm.tif"), **{name: layer})
     assert not (tmp_path / "dtm.tif").exists()
 
@@ -117,7 +117,7 @@ def test_a_layer_of_another_kind_is_a_sentence(
     values = {"INPUT": str(scene.path), "OUTPUT": str(tmp_path / "out.laz"), name: layer}
     algorithm = registry.createAlgorithmById("bareearth:slopefilter")
     assert not algorithm.run({**values, "DTM": str(tmp_path / "dtm.tif")}, context, log)[1]
-    assert f'The layer "{label}" holds no {kind}. Choose one that does.' in log.text
+    assert f'layer "{label}" holds no {kind}' in log.text
     assert "Traceback" not in log.text
     assert not (tmp_path / "out.laz").exists()
 

@@ -1,5 +1,6 @@
 """Declared parameters as Processing parameters, and back."""
 
+import re
 from dataclasses import dataclass
 from typing import Optional
 
@@ -90,23 +91,23 @@ def test_values_arrive(example, values, expected):
 @pytest.mark.parametrize(
     ("values", "word"),
     [
-        ({"SIZE": 0}, "Size must be at least 0.0005 m"),
-        ({"SIZE": "large"}, "Size must be a number"),
-        ({"SIZE": None}, "Size must have a value"),
-        ({"ROUNDS": 2.5}, "Rounds must be a whole number"),
-        ({"ROUNDS": 10}, "Rounds must be at most 9"),
-        ({"WAY": "left"}, "Way must be one of up, down"),
-        ({"WAY": 2}, "Way must be one of up, down"),
-        ({"WAY": "-1"}, "Way must be one of up, down"),
-        ({"SIZES": "1, x"}, "Sizes must be a number"),
-        ({"CLASSES": "1.5"}, "Classes must be a whole number"),
+        ({"SIZE": 0}, r"Size .* 0\.0005 m"),
+        ({"SIZE": "large"}, "Size .* number"),
+        ({"SIZE": None}, "Size .* value"),
+        ({"ROUNDS": 2.5}, "Rounds .* whole number"),
+        ({"ROUNDS": 10}, "Rounds .* at most 9"),
+        ({"WAY": "left"}, "Way .* up, down"),
+        ({"WAY": 2}, "Way .* up, down"),
+        ({"WAY": "-1"}, "Way .* up, down"),
+        ({"SIZES": "1, x"}, "Sizes .* number"),
+        ({"CLASSES": "1.5"}, "Classes .* whole number"),
     ],
 )
 def test_wrong_values_are_refused_by_one_line(example, values, word):
     with pytest.raises(BareEarthError, match=word):
         chosen(example, values)
     possible, text = example.checkParameterValues(values, QgsProcessingContext())
-    assert not possible and word in text and "\n" not in text
+    assert not possible and re.search(word, text) and "\n" not in text
 
 
 def test_the_dialog_shows_as_many_decimals_as_are_needed(example):

@@ -610,7 +610,7 @@ def test_unknown_parameters_are_told(name, registry, scene, tmp_path, context, l
     told = [text for text in log.said if text.startswith("There is no parameter")]
     assert len(told) == 2
     assert "NOSUCH" in told[0] and "Did you mean" not in told[0]
-    assert "PRESETT" in told[1] and "Did you mean PRESET?" in told[1]
+    assert re.search(r"\bPRESETT\b.* PRESET\b", told[1])
 
 
 @pytest.mark.rest
@@ -618,9 +618,7 @@ def test_qgis_process_tells_of_unknown_parameters(qgis_process, scene, tmp_path)
     words = f"INPUT={scene.path}", f"OUTPUT={tmp_path / 'ground.laz'}", "OUPUT=x.laz"
     done = qgis_process("run", ALGORITHM, "--", *words)
     assert done.returncode == 0, done.stderr
-    assert "There is no parameter OUPUT: it is ignored. Did you mean OUTPUT?" in (
-        done.stdout + done.stderr
-    )
+    assert re.search(r"no parameter OUPUT\b.* OUTPUT\b", done.stdout + done.stderr)
 
 
 def test_qgis_process_prints_an_error_once(qgis_process, scene, tmp_path):

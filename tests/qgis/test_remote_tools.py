@@ -147,7 +147,7 @@ def test_the_terrain_is_that_of_the_file(address, cloud, tmp_path):
 
 def test_without_an_extent_nothing_is_asked_for(address, server, tmp_path):
     for name in ("pointcloudtoterrain", "heightaboveground"):
-        with pytest.raises(QgsProcessingException, match="far is not on this computer: give the"):
+        with pytest.raises(QgsProcessingException, match="far is not on this computer"):
             run(name, GIVEN[name], tmp_path, INPUT=address)
     assert not server.asked
 
@@ -155,7 +155,7 @@ def test_without_an_extent_nothing_is_asked_for(address, server, tmp_path):
 def test_more_than_the_limit_is_refused(address, tmp_path, cache):
     with pytest.raises(
         QgsProcessingException,
-        match=r"1\.0 kB\. Choose a smaller .* 'Limit of the download \[GB\]' \(0\.1\)",
+        match=r"1\.0 kB\. .*'Limit of the download \[GB\]' \(0\.1\)",
     ):
         run("tindensification", GIVEN["tindensification"], tmp_path, INPUT=address, EXTENT=EXTENT,
             LIMIT=1e-6)  # fmt: skip
@@ -220,7 +220,7 @@ def test_web_mercator_is_refused_before_the_download(server, tmp_path):
     server.asked.clear()
     with pytest.raises(
         QgsProcessingException,
-        match=r"Mercator.* Reproject .* 'Transform Web Mercator to UTM' of 'Download part of ",
+        match=r"Mercator.* 'Transform Web Mercator to UTM' of '",
     ):
         run("terrainmodel", {"DTM": "dtm.tif"}, tmp_path, INPUT=address,
             EXTENT="500020,500060,5600010,5600055")  # fmt: skip
@@ -250,7 +250,7 @@ def test_a_list_is_a_survey(server, cloud, tmp_path):
     address = add_list(server, cloud)
     run("terrainmodel", {"DTM": "dtm.tif"}, tmp_path, INPUT=address, EXTENT=EXTENT)
     assert (tmp_path / "dtm.tif").exists()
-    with pytest.raises(QgsProcessingException, match="all lists 2 point clouds that have points"):
+    with pytest.raises(QgsProcessingException, match="all lists 2 point clouds"):
         run("slopefilter", GIVEN["slopefilter"], tmp_path, INPUT=address, EXTENT=EXTENT)
 
 
@@ -258,7 +258,7 @@ def test_a_cancel_while_it_downloads(address, server, tmp_path):
     server.fault, log = lambda number, path: "slow", Log(cancel_at=6)
     done = run("tindensification", GIVEN["tindensification"], tmp_path, log, INPUT=address,
                EXTENT=EXTENT)  # fmt: skip
-    assert not done.get("OUTPUT") and "Cancelled; nothing was written." in log.text
+    assert not done.get("OUTPUT") and "nothing was written" in log.text
     assert max(log.moments) < 50.0 and not list(tmp_path.glob("out*"))
 
 
@@ -306,7 +306,7 @@ def test_errors_name_the_address(address, server, tmp_path):
     extent = "500010.01,500010.02,5700010.01,5700010.02"
     with pytest.raises(QgsProcessingException) as told:
         run("tindensification", GIVEN["tindensification"], tmp_path, INPUT=address, EXTENT=extent)
-    assert f"No point of {server.address('far.copc.laz')} lies in the area" in str(told.value)
+    assert f"No point of {server.address('far.copc.laz')} " in str(told.value)
 
 
 def test_qgis_process_reads_an_address(address, tmp_path, qgis_process):
@@ -316,7 +316,7 @@ def test_qgis_process_reads_an_address(address, tmp_path, qgis_process):
     assert done.returncode == 0, done.stdout + done.stderr
     assert target.exists() and "Downloads " in done.stdout
     done = qgis_process("run", ONE_STEP, words[0], words[2])
-    assert done.returncode and "not on this computer: give the extent" in done.stdout + done.stderr
+    assert done.returncode and "not on this computer" in done.stdout + done.stderr
 
 
 def test_a_model_reads_an_address(address, tmp_path, log):

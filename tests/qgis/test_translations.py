@@ -107,7 +107,7 @@ def test_a_run_speaks_and_takes_the_same_values(registry, speak, tmp_path, conte
     values = {"INPUT": str(scene.path), "PRESET": "town", "OUTPUT": str(tmp_path / "out.las")}
     assert algorithm.checkParameterValues(values, context)[0]
     _, done = algorithm.run(values, context, log)
-    assert done and f"of {scene.count:,} points are ground" in log.text
+    assert done and f"of {scene.count:,} points" in log.text
     possible, text = algorithm.checkParameterValues({**values, "INPUT": "no.las"}, context)
     assert not possible and text == "no.las gibt es nicht. Prüfen Sie den Pfad."
 
@@ -151,7 +151,7 @@ def test_the_log_of_a_run_is_in_one_language(registry, marked, tmp_path, context
     algorithm, log = registry.createAlgorithmById(ALGORITHM), Log()
     assert algorithm.checkParameterValues(wrong, context)[1].startswith(_OPEN)
     assert algorithm.run(wrong, context, log)[1] is False
-    assert "no.las does not exist. Check the path." in log.said
+    assert any(text.startswith("no.las does not exist") for text in log.said)
 
 
 def test_choices_of_a_dialog_are_in_german_and_give_the_same_values(registry, speak):
