@@ -105,7 +105,6 @@ def test_no_kind_is_refused(registry, terrain, tmp_path, context):
 @pytest.mark.parametrize("name", ["relief", "removeoffterrainobjects"])
 def test_a_point_cloud_is_no_raster(registry, scene, tmp_path, context, name):
     algorithm = registry.createAlgorithmById(f"bareearth:{name}")
-    for path, words in ((scene.path, "is not a raster. Choose a GeoTIFF."),
-                        (tmp_path / "none.tif", "does not exist. Check the path.")):  # fmt: skip
+    for path, words in ((scene.path, "not a raster"), (tmp_path / "none.tif", "does not exist")):
         fits, text = algorithm.checkParameterValues({"INPUT": str(path)}, context)
-        assert not fits and text == f"{path} {words}"
+        assert not fits and text.startswith(f"{path} ") and words in text

@@ -211,7 +211,7 @@ def test_a_datum_that_is_not_stated_or_named_differently_is_told(las):
     heard = Heard()
     assert open_survey([las.folder], progress=heard).crs.datum.crs == "NZVD2016 height"
     (info,) = [text for text in heard.infos if "datum" in text]
-    assert info.startswith("No vertical datum is stated by a.las") and not heard.warnings
+    assert "vertical datum" in info and " a.las" in info and not heard.warnings
     tile(las, "c.las", 200, wkt=heights("Vertical", "New_Zealand_Vertical_Datum_2016"))
     open_survey([las.folder], progress=heard)
     assert not heard.warnings
@@ -230,7 +230,7 @@ def test_files_with_a_placeholder_for_their_datum_are_joined_and_told(las):
         survey = open_survey([las.folder], progress=heard)
         assert len(survey.tiles) == 2 and survey.crs.datum is not None
         (told,) = [text for text in (*heard.infos, *heard.warnings) if "datum" in text]
-        assert told.startswith("No vertical datum is stated by a.las")
+        assert "vertical datum" in told and " a.las" in told
     assert heard.warnings == [told]  # heights above the ellipsoid are far off
 
 
