@@ -15,7 +15,7 @@ from ..remote.addresses import is_address, name_of
 from ..tools import any_tool, file_tool
 from ..tools.listing import COMPOSITIONS, FILE_TOOLS, MAP_TOOLS, POINT_TOOLS, listed
 from .options import DONE, FAILED, Command, add_json, add_parameters, chosen
-from .terminal import Terminal, tell
+from .terminal import Terminal, report
 
 if TYPE_CHECKING:
     from ..filters.method import Method
@@ -124,10 +124,10 @@ def _do_file_tool(name: str, options: argparse.Namespace) -> int:
     if tool.json is None:
         return DONE
     if hasattr(found, "lines"):
-        tell(options, found, "\n".join(found.lines()), always=True)
+        report(options, found, "\n".join(found.lines()), always=True)
         return DONE
     places = [f"{getattr(options, output.name)}: " for output in tool.outputs if output.is_main]
-    tell(options, found, f"{''.join(places)}{found.text}", tool.always_tells)
+    report(options, found, f"{''.join(places)}{found.text}", tool.always_reports)
     return DONE
 
 
@@ -137,7 +137,7 @@ def _do_on_points(name: str, options: argparse.Namespace) -> int:
 
     done, source = _called(of_tool(name), options), options.sources[0]
     source = name_of(source) if is_address(source) else source
-    tell(options, done, done.line(Path(getattr(options, "output", source))))
+    report(options, done, done.line(Path(getattr(options, "output", source))))
     return FAILED if done.failures else DONE
 
 
@@ -147,7 +147,7 @@ def _do_composition(name: str, options: argparse.Namespace) -> int:
 
     done = _called(of_tool(name), options)
     text = "\n".join([f"{options.output}: {done.text}", *done.lines()])
-    tell(options, done, text, always=True)
+    report(options, done, text, always=True)
     return FAILED if done.failures else DONE
 
 

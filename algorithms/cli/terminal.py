@@ -66,7 +66,7 @@ def _progress_bar() -> Any:
     return tqdm(total=100, bar_format=layout, leave=False, file=sys.stderr)
 
 
-def tell(options: argparse.Namespace, summary: Any, text: str, always: bool = False) -> None:
+def report(options: argparse.Namespace, summary: Any, text: str, always: bool = False) -> None:
     """Print the result as JSON, or in words: in a terminal, with `verbose`, or with `always`."""
     if options.json:
         is_own = hasattr(summary, "as_dict")

@@ -113,17 +113,17 @@ class _Messages(PassingOn):
 
     def info(self, text: str) -> None:
         """Pass on a message."""
-        self._tell(super().info, text)
+        self._report(super().info, text)
 
     def choice(self, text: str) -> None:
         """Pass on a choice."""
-        self._tell(super().choice, text)
+        self._report(super().choice, text)
 
     def warning(self, text: str) -> None:
         """Pass on a warning, and keep it."""
-        self._tell(super().warning, text, self.warnings)
+        self._report(super().warning, text, self.warnings)
 
-    def _tell(
+    def _report(
         self, pass_on: Callable[[str], None], text: str, kept: list[str] | None = None
     ) -> None:
         """Pass on a message with the final names of folders, unless it was passed on before."""

@@ -138,7 +138,7 @@ class HeightBand(NamedTuple):
         """Which tiles of the file are stored."""
         return stored_in(self.source, self.band, self.whole)
 
-    def tell(self, progress: Progress) -> None:
+    def report(self, progress: Progress) -> None:
         """Warn, after the cells have been read, of undeclared values for no data."""
         report_undeclared(self.source, self.band, progress)
 

@@ -72,14 +72,14 @@ class Categories(NamedTuple):
     entries: tuple[tuple[int, str, str], ...]
 
 
-class Steps(NamedTuple):
+class ColourSteps(NamedTuple):
     """A colour up to each limit, in metres, and one beyond the last."""
 
     limits: tuple[float, ...]
     colours: tuple[str, ...]
 
 
-Style = Union[Ramp, PictureStyle, Categories, Steps]
+Style = Union[Ramp, PictureStyle, Categories, ColourSteps]
 
 
 class Look(NamedTuple):

@@ -78,7 +78,7 @@ class HeightRaster:
             " points."
         )
 
-    def tell(self, crs: Crs, progress: Progress) -> None:
+    def report(self, crs: Crs, progress: Progress) -> None:
         """Warn if heights of points in a CRS may not be comparable with those of the raster."""
         facts = read_wkt(self.crs.wkt) if self.crs and self.crs.wkt else None
         report_undeclared(self.path, 1, progress)

@@ -84,7 +84,7 @@ def clouds_of(address: str, transfers: Transfers) -> list[Cloud]:
     """
     if ends_with(address, ".laz", ".las") or name_of(address).lower() == DESCRIPTION:
         return [Cloud(address)]
-    reader = _Reader(address, transfers)
+    reader = _ListReader(address, transfers)
     clouds = reader.clouds()
     if reader.strange:
         raise BareEarthError(
@@ -112,7 +112,7 @@ def near(clouds: list[Cloud], area: Area | None) -> list[Cloud]:
     return found or (clouds if len(clouds) <= _MOST_ASKED else [])
 
 
-class _Reader:
+class _ListReader:
     """Reads a list."""
 
     def __init__(self, address: str, transfers: Transfers) -> None:

@@ -219,7 +219,7 @@ class Transfers:
             if number >= 0:
                 results[number] = result  # type: ignore[assignment]
             self._watch()
-            self._tell(progress, (self.received - before) / size if size else 0.0)
+            self._report(progress, (self.received - before) / size if size else 0.0)
         return [results[number] for number in range(len(tasks))]
 
     def whole(self, address: str, most: int) -> bytes:
@@ -241,7 +241,7 @@ class Transfers:
         """Do one task, as `run`."""
         return self.run([task])[0]
 
-    def _tell(self, progress: Progress | None, share: float) -> None:
+    def _report(self, progress: Progress | None, share: float) -> None:
         """Report progress, which raises an error after a cancel, and show the warnings."""
         for source in (self._web, self._stores, self._signatures):
             while source.notes:

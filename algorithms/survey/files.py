@@ -186,7 +186,7 @@ def open_survey(sources: Sources, progress: Progress = SILENT) -> Survey:
             if len(broken) == 1
             else f"None of the {len(broken)} files can be read. The first: {broken[0].reason}"
         )
-    _tell(notes, progress)
+    _report(notes, progress)
     copies = copies_in(tiles, [_key(tile.path) in named for tile in tiles], progress)
     pairs = [pair for pair in zip(tiles, systems) if pair[0].path not in copies]
     tiles, systems = (list(column) for column in zip(*pairs))
@@ -317,7 +317,7 @@ def _check_extent(layout: LasFile) -> None:
         raise no_extent(layout)
 
 
-def _tell(notes: Notes, progress: Progress) -> None:
+def _report(notes: Notes, progress: Progress) -> None:
     """Report equal messages of many files once, with the number of files."""
     for (kind, text), count in Counter(notes.messages).items():
         text = f"{text} (in {count} files)" if count > 1 else text

@@ -52,7 +52,7 @@ class Canopy:
         return f"{self.cell_count:,} cells have a canopy height, up to {highest}."
 
 
-class Block(NamedTuple):
+class HeightBlock(NamedTuple):
     """Heights of two rasters in a block and round it, in metres."""
 
     first: np.ndarray
@@ -87,7 +87,7 @@ class TwoHeights:
         return surface, self._terrain[south:north, west:east]
 
     def cells(
-        self, margin: int, work: Callable[[Block], np.ndarray], progress: Progress
+        self, margin: int, work: Callable[[HeightBlock], np.ndarray], progress: Progress
     ) -> RasterCells:
         """Return the cells of a raster on the grid of the first one: what `work` makes of a block
         and of so many cells round it, in metres, NaN for no value.
@@ -99,7 +99,7 @@ class TwoHeights:
                     south, west = max(start - margin, 0), max(first - margin, 0)
                     both = self.rows(south, end + margin, west, last + margin)
                     inner = slice(start - south, end - south), slice(first - west, last - west)
-                    made = work(Block(*both, inner, south, west)) / self.unit
+                    made = work(HeightBlock(*both, inner, south, west)) / self.unit
                     cells = np.where(np.isnan(made), NODATA, made).astype(np.float32)
                     yield RasterPart(start, first, cells)
                 progress(end / self.surface.whole[0])
@@ -118,9 +118,9 @@ def canopy_of_rasters(
     """Write the height of a surface model above a terrain model, on the grid of the surface."""
     raster = read_raster(surface, window=NO_CELLS, progress=progress)
     heights = TwoHeights(raster, terrain, progress)
-    found = _Found()
+    found = _CanopyCells()
 
-    def canopy_of(block: Block) -> np.ndarray:
+    def canopy_of(block: HeightBlock) -> np.ndarray:
         found.add((block.first - block.second)[block.inner])
         canopy = canopy_height(block.first, block.second)
         return (without_pits(canopy) if parameters.pit_free else canopy)[block.inner]
@@ -128,13 +128,13 @@ def canopy_of_rasters(
     margin = PIT_PASSES if parameters.pit_free else 0
     cells = heights.cells(margin, canopy_of, progress.part(0.0, 0.9))
     write_geotiff(output, cells, raster, NODATA, progress.part(0.9, 1.0), RASTERS["chm"].shows)
-    raster.tell(progress)
-    read_raster(terrain, window=NO_CELLS).tell(progress)
+    raster.report(progress)
+    read_raster(terrain, window=NO_CELLS).report(progress)
     found.check(surface, terrain)
     return Canopy(found.count, found.maximum / heights.unit, raster.unit_symbol)
 
 
-class _Found:
+class _CanopyCells:
     """The cells with a height so far."""
 
     def __init__(self) -> None:

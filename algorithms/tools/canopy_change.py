@@ -18,7 +18,7 @@ from ..rasters.geotiff import NODATA, HeightBand, read_raster
 from ..rasters.writing import write_geotiff
 from ..survey.area import Polygon
 from ..survey.feature_files import Feature, FeatureLayer, feature_writer
-from .canopy import Block, TwoHeights
+from .canopy import HeightBlock, TwoHeights
 from .change.places import ChangePlace, connected
 from .contours import corners_of
 from .declaration import CANOPY, RASTER, FileTool, Input, Output
@@ -89,20 +89,20 @@ def canopy_change(
     canopy was lost and gained.
     """
     raster = read_raster(old, window=NO_CELLS, progress=progress)
-    found = _Found(raster, how)
+    found = _ChangedCells(raster, how)
     heights = TwoHeights(raster, new, progress)
     cells = heights.cells(found.margin, found.change_in, progress.part(0.0, 0.9))
     shows = "Change of the canopy, {unit}"
     write_geotiff(difference, cells, raster, NODATA, progress.part(0.9, 1.0), shows)
     found.check(old, new)
-    told = found.places()
+    places_found = found.places()
     if places is not None:
         layer = FeatureLayer("canopy", "Polygon", _FIELDS, raster.frame.wkt, raster.crs.epsg)
-        feature_writer(places)(places, _features(told, raster), layer, progress)
-    return found.summary(told)
+        feature_writer(places)(places, _features(places_found, raster), layer, progress)
+    return found.summary(places_found)
 
 
-class _Found:
+class _ChangedCells:
     """What was found in the cells so far."""
 
     def __init__(self, raster: HeightBand, how: CanopyChanges) -> None:
@@ -118,7 +118,7 @@ class _Found:
         """The cells round a block that its places need."""
         return 2 * max(self._width)
 
-    def change_in(self, block: Block) -> np.ndarray:
+    def change_in(self, block: HeightBlock) -> np.ndarray:
         """Return the change in a block, and add what is found there."""
         old, new, inner = block.first, block.second, block.inner
         change = new - old
@@ -236,7 +236,7 @@ TOOL = FileTool(
             look="places of change",
         ),
     ),
-    always_tells=True,
+    always_reports=True,
     command="canopy-change",
     identifier="canopychange",
     title="Canopy change",

@@ -150,7 +150,7 @@ def contours_of(
 ) -> tuple[Interval, FeatureLayer, Iterator[Feature]]:
     """Return the contour lines of a raster."""
     low, high = _range_of(raster, progress.part(0.0, 0.2))
-    raster.tell(progress)
+    raster.report(progress)
     if low > high:
         progress.warning(f"{raster.source} has no cell with a height, so it has no contour lines.")
         low = high = 0.0

@@ -287,7 +287,7 @@ class FileTool(Tool):
     lacks: Callable[[Mapping[str, object], Sequence[ParameterSet]], str] = lambda inputs, sets: ""
     # Other flags for parameters with several values, which take one value.
     flags: Mapping[str, str] = field(default_factory=dict)
-    always_tells: bool = False  # whether the command prints the text also without --verbose
+    always_reports: bool = False  # whether the command prints the text also without --verbose
 
     @property
     def all_outputs(self) -> tuple[Output, ...]:

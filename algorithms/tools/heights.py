@@ -202,7 +202,7 @@ class HeightsOfPoints(PointResult):
         """Return the heights as z or as a dimension, or refuse heights that do not fit into z."""
         dtm = self._step.dtm
         if dtm is not None:
-            dtm.tell(cloud.crs, progress)
+            dtm.report(cloud.crs, progress)
             if self._unknown_count and self._as_z:
                 raise self._no_z(dtm)
             dtm.report_heights(self.heights, self._unit, FAR_ABOVE, progress)

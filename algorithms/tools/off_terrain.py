@@ -92,7 +92,7 @@ def remove_objects_file(
     _check_memory(source, parameters.band)
     # An error says if the raster has no heights, or its CRS is geographic.
     raster = read_raster(source, parameters.band, progress)
-    raster.tell(progress)
+    raster.report(progress)
     progress(0.1)
     known = ~np.isnan(raster.heights)
     if not known.any():

@@ -87,7 +87,7 @@ def draw_reliefs(
         cells = RasterCells(raster.whole, row.kind, parts, row.bands, made)
         with may_use(available_cpus()):
             write(path, cells, raster, nodata, part, row.shows)
-    raster.tell(progress)
+    raster.report(progress)
 
 
 def files_of(output: Path, sets: Sequence[ParameterSet]) -> dict[str, Path]:

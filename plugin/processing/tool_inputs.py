@@ -294,7 +294,7 @@ def _polygons(request: Request, declared: Input, resolved: Resolved) -> GivenInp
 FILES, BEFORE, LATE = range(3)
 
 
-class Kind(NamedTuple):
+class InputKind(NamedTuple):
     """A kind of input: its fields, how they are read, and when."""
 
     fields: Callable[[Input], Fields]
@@ -304,36 +304,36 @@ class Kind(NamedTuple):
 
 
 KINDS = {
-    "cloud": Kind(
+    "cloud": InputKind(
         _one(lambda *given: (SurveyInput if given[-1] else PointCloudInput)(*given), _CLOUD_HELP),
         _cloud,
         FILES,
     ),
-    "clouds": Kind(_one(SurveyInput, _ANY_CLOUD_HELP), _cloud, FILES),
-    "files": Kind(_files_fields, lambda request, *_: _of_sources(clouds_of(request)), FILES),
-    "survey": Kind(_survey_fields, lambda request, *_: _of_sources(survey_of(request)), FILES),
-    "address": Kind(_one(PointCloudInput, LAYER_HELP), _address, FILES),
-    "raster": Kind(_one(QgsProcessingParameterRasterLayer), _raster, FILES),
-    "terrain": Kind(_one(TerrainInput), _terrain, FILES),
-    "crs": Kind(_one(QgsProcessingParameterCrs), _crs),
-    "extent": Kind(_one(QgsProcessingParameterExtent), _extent),
-    "words": Kind(
+    "clouds": InputKind(_one(SurveyInput, _ANY_CLOUD_HELP), _cloud, FILES),
+    "files": InputKind(_files_fields, lambda request, *_: _of_sources(clouds_of(request)), FILES),
+    "survey": InputKind(_survey_fields, lambda request, *_: _of_sources(survey_of(request)), FILES),
+    "address": InputKind(_one(PointCloudInput, LAYER_HELP), _address, FILES),
+    "raster": InputKind(_one(QgsProcessingParameterRasterLayer), _raster, FILES),
+    "terrain": InputKind(_one(TerrainInput), _terrain, FILES),
+    "crs": InputKind(_one(QgsProcessingParameterCrs), _crs),
+    "extent": InputKind(_one(QgsProcessingParameterExtent), _extent),
+    "words": InputKind(
         _one(
             lambda name, label, *_: QgsProcessingParameterString(name, label, None, False, True),
             "Words are separated by commas.",
         ),
         _words,
     ),
-    "area": Kind(_area_fields, _area),
-    "target": Kind(_parts, _target),
-    "corrections": Kind(_parts, _corrections),
-    "constraints": Kind(_parts, _constraints),
-    "checkpoints": Kind(_parts, checkpoints_of, LATE),
-    "polygons": Kind(_one(_layer(compat.POLYGONS)), _polygons, LATE),
+    "area": InputKind(_area_fields, _area),
+    "target": InputKind(_parts, _target),
+    "corrections": InputKind(_parts, _corrections),
+    "constraints": InputKind(_parts, _constraints),
+    "checkpoints": InputKind(_parts, checkpoints_of, LATE),
+    "polygons": InputKind(_one(_layer(compat.POLYGONS)), _polygons, LATE),
     # Parts of the groups above.
-    "lines": Kind(_one(_layer(compat.LINES))),
-    "points": Kind(_one(_layer(compat.TABLES, CheckpointInput), _POINTS_HELP)),
-    "attribute": Kind(
+    "lines": InputKind(_one(_layer(compat.LINES))),
+    "points": InputKind(_one(_layer(compat.TABLES, CheckpointInput), _POINTS_HELP)),
+    "attribute": InputKind(
         _one(
             lambda name, label, *_: QgsProcessingParameterField(
                 name, label, *_ATTRIBUTES[name], optional=True

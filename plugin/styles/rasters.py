@@ -23,7 +23,7 @@ from qgis.core import (
 from qgis.PyQt.QtGui import QColor, QPainter
 
 from ...algorithms.crs.system import unit_size
-from ...algorithms.rasters.looks import Categories, PictureStyle, Ramp, Steps, Stops, Style
+from ...algorithms.rasters.looks import Categories, ColourSteps, PictureStyle, Ramp, Stops, Style
 from .. import compat
 from ..i18n import tr
 from . import clouds
@@ -91,7 +91,7 @@ def _show_bands(layer: QgsRasterLayer, style: PictureStyle) -> None:
     layer.setRenderer(renderer)
 
 
-def _step(layer: QgsRasterLayer, style: Steps) -> None:
+def _step(layer: QgsRasterLayer, style: ColourSteps) -> None:
     """Give all values between two limits one colour."""
     unit = unit_size(unit_of(layer.source()))
     ends = [limit / unit for limit in style.limits]

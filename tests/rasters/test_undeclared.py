@@ -39,7 +39,7 @@ def with_hole(value, cells=None):
 def read(path, heard):
     """Return the heights that tools read, masked where there are none."""
     raster = read_raster(path, 1, heard)
-    raster.tell(heard)
+    raster.report(heard)
     return np.ma.masked_invalid(raster.heights)
 
 

@@ -200,9 +200,9 @@ def test_points_far_above_a_raster_or_above_another_datum_are_told(tmp_path):
     assert "at least 48." in warning and "vertical datums" in warning
     here, there = (crs_of_wkt(wkt_of_text(f"EPSG:25832+{code}")) for code in (7837, 5621))
     raster = dataclasses.replace(HeightRaster.of(far), crs=there)
-    raster.tell(here, progress)
+    raster.report(here, progress)
     feet = crs_of_wkt(wkt_of_text("EPSG:25832+8228"))
-    dataclasses.replace(raster, crs=feet, states_unit=True).tell(feet, progress)
+    dataclasses.replace(raster, crs=feet, states_unit=True).report(feet, progress)
     assert re.search("metre by its band, .* foot by its CRS", progress.warnings[2])
     assert "EVRF2007 height" in progress.warnings[1] and "DHHN2016 height" in progress.warnings[1]
 

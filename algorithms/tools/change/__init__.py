@@ -25,10 +25,10 @@ from ..ground.method import TileMethod
 from ..rasters.parameters import TerrainModel
 from .judged import SAME, judged
 from .page import change_html
-from .pair import Pair, Strip, given, pair_of
+from .pair import CellStrip, Pair, given, pair_of
 from .places import Places, limits_of, places_of
 from .stable import aligned, sample_of, scatter_of
-from .summary import ChangeSummary, Found, summary_of
+from .summary import ChangeSummary, TerrainChange, summary_of
 
 _FIELDS = {
     "RANK": int, "KIND": str, "AREA": float, "VOLUME": float, "VOLUME_ERR": float, "MEAN": float,
@@ -122,7 +122,7 @@ def change(
 
 def _found(
     pair: Pair, names: tuple[str, str], comparison: Comparison, how: Places, progress: Progress
-) -> Found:
+) -> TerrainChange:
     """Align both terrains, and find the places that changed."""
     sample = sample_of(pair, names, progress.part(0.0, 0.3))
     alignment = aligned(sample, comparison.alignment, names)
@@ -135,11 +135,11 @@ def _found(
         )
     scatter = scatter_of(pair, sample, alignment, progress.part(0.4, 0.6))
     places = places_of(pair, alignment, scatter, how, progress.part(0.6, 1.0))
-    return Found(pair, sample, alignment, scatter, places)
+    return TerrainChange(pair, sample, alignment, scatter, places)
 
 
 def _write_rasters(
-    found: Found,
+    found: TerrainChange,
     paths: tuple[Path | None, Path | None],
     write: Callable[..., None],
     no_data: float,
@@ -148,15 +148,15 @@ def _write_rasters(
     """Write the difference and the detection limit."""
     pair, alignment, unit = found.pair, found.alignment, found.pair.grid.frame.vertical_unit
 
-    def change_of(strip: Strip) -> np.ndarray:
+    def change_of(strip: CellStrip) -> np.ndarray:
         return alignment.of_strip(pair, strip)
 
-    def limit_of(strip: Strip) -> np.ndarray:
+    def limit_of(strip: CellStrip) -> np.ndarray:
         slope = strip.steepness(pair.cell)
         limits = limits_of(found.scatter, alignment, strip.spread, slope)
         return np.where(np.isnan(strip.change) | ~strip.is_seen, np.nan, limits)
 
-    def parts(of: Callable[[Strip], np.ndarray], part: Progress) -> Iterator[RasterPart]:
+    def parts(of: Callable[[CellStrip], np.ndarray], part: Progress) -> Iterator[RasterPart]:
         for strip in pair.strips(part):
             values = of(strip)[strip.own] / unit
             cells = np.where(np.isnan(values), no_data, values).astype(np.float32)
@@ -169,7 +169,7 @@ def _write_rasters(
             write(path, cells, pair.grid, no_data, part, shows)
 
 
-def features_of(found: Found) -> Iterator[Feature]:
+def features_of(found: TerrainChange) -> Iterator[Feature]:
     """Yield the places as polygons."""
     for rank, place in enumerate(found.places, start=1):
         rings: Polygon = tuple(corners_of(ring, found.pair.grid) for ring in place.rings)
@@ -252,7 +252,7 @@ TOOL = FileTool(
     " points of both dates alike is no change, whatever the ground filter made of it.",
     page="change",
     words=(CLOUD, TERRAIN, RASTER, "change,difference,dod,volume,erosion,landslide,detection,m3c2"),
-    always_tells=True,
+    always_reports=True,
     run_name="change",
     shown=(),
     numbers=(

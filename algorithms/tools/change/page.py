@@ -28,7 +28,7 @@ from ...survey.files import Inputs
 from ..contours import corners_of
 from ..review.profile import ProfilePoints, points_along
 from .places import ChangePlace, limits_of
-from .summary import Found
+from .summary import TerrainChange
 
 _SHOWN = 10  # places in the table, of which the first have profiles
 _PROFILES = 5
@@ -44,7 +44,7 @@ _POINTS = "#b9a58a", "#8fb3ef"
 
 def change_html(
     names: Sequence[str],
-    found: Found,
+    found: TerrainChange,
     facts: Sequence[tuple[str, str]],
     clouds: Sequence[Inputs | None],
 ) -> str:
@@ -61,7 +61,7 @@ def change_html(
     return page("Change between two surveys", parts, DRAWN)
 
 
-def _map(found: Found, units: Units) -> Iterator[Html]:
+def _map(found: TerrainChange, units: Units) -> Iterator[Html]:
     """Yield the map of the change over the relief, with the places outlined."""
     from scipy import ndimage
 
@@ -92,13 +92,13 @@ def _map(found: Found, units: Units) -> Iterator[Html]:
     yield paragraph("Places of significant change have a dark outline. White: no value in a date.")
 
 
-def _scale(found: Found) -> float:
+def _scale(found: TerrainChange) -> float:
     """Return the change in metres from which colours are full."""
     means = [abs(place.mean) for place in found.places]
     return max(float(np.median(means)) * 1.5 if means else 0.0, 4.0 * found.scatter.nmad, 0.1)
 
 
-def _table(found: Found, units: Units) -> Html:
+def _table(found: TerrainChange, units: Units) -> Html:
     """Return the table of the first places."""
     rows = []
     for rank, place in enumerate(found.places[:_SHOWN], start=1):
@@ -115,7 +115,9 @@ def _table(found: Found, units: Units) -> Html:
     return Html(table(rows, head, "rlrrrrr") + more)
 
 
-def _profiles(found: Found, clouds: Sequence[Inputs | None], units: Units) -> Iterator[Html]:
+def _profiles(
+    found: TerrainChange, clouds: Sequence[Inputs | None], units: Units
+) -> Iterator[Html]:
     """Yield profiles through the first places, with the points of both dates."""
     shown = found.places[:_PROFILES]
     cuts = [_line_of(place) for place in shown]
@@ -148,7 +150,7 @@ def _line_of(place: ChangePlace) -> np.ndarray:
 
 def _profile(
     number: int,
-    found: Found,
+    found: TerrainChange,
     line: np.ndarray,
     points: Sequence[ProfilePoints | None],
     units: Units,
@@ -183,7 +185,7 @@ def _profile(
     return Html(chart)
 
 
-def _stable(found: Found, units: Units) -> Iterator[Html]:
+def _stable(found: TerrainChange, units: Units) -> Iterator[Html]:
     """Yield the histogram of the differences of cells that did not change, and what it means."""
     sample, scatter = found.sample, found.scatter
     change = sample.change - found.alignment.at(sample.east, sample.north)

@@ -42,7 +42,7 @@ _LEAST_HEIGHT = 20.0  # metres: of lower land the ratio says nothing
 SEEN = 2.0  # metres from ground points of both dates up to which their terrains can show a change
 
 
-class Strip(NamedTuple):
+class CellStrip(NamedTuple):
     """Cells of both terrains, with some more rows above and below; float32, metres."""
 
     row: int  # the first row and column in the raster
@@ -92,7 +92,7 @@ class Pair(NamedTuple):
         """The units of lengths and heights in outputs."""
         return Units(self.grid.frame.horizontal_unit, self.grid.frame.vertical_unit)
 
-    def strips(self, progress: Progress) -> Iterator[Strip]:
+    def strips(self, progress: Progress) -> Iterator[CellStrip]:
         """Yield all rows, strip by strip."""
         rows, columns = self.grid.whole
         step = max(_CELLS // columns, 4 * MARGIN)
@@ -102,7 +102,7 @@ class Pair(NamedTuple):
             yield strip._replace(own=slice(start - first, end - first))
             progress(end / rows)
 
-    def strip(self, window: Window) -> Strip:
+    def strip(self, window: Window) -> CellStrip:
         """Return the cells of a window, those that there are."""
 
         def cells(of: Windows) -> np.ndarray:
@@ -115,7 +115,7 @@ class Pair(NamedTuple):
         for of_date in self.distances:
             distance = distance if of_date is None else np.fmax(distance, cells(of_date))
         row, column = (max(part.start, 0) for part in window)
-        return Strip(row, column, slice(0, len(old)), old, new, spread, distance)
+        return CellStrip(row, column, slice(0, len(old)), old, new, spread, distance)
 
     def places(self, rows: np.ndarray, columns: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return where cells lie, in metres east and north of the middle of the grid."""

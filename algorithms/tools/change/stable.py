@@ -20,7 +20,7 @@ import numpy as np
 
 from ...core.errors import BareEarthError
 from ...core.progress import Progress
-from .pair import Pair, Strip, refuse_other_units
+from .pair import CellStrip, Pair, refuse_other_units
 
 _MOST = 1_000_000  # cells that are drawn
 _LEAST = 100  # cells that are enough
@@ -108,7 +108,7 @@ class Alignment:
         """Return what is taken off the change at places."""
         return self.shift + self.tilt[0] * east + self.tilt[1] * north
 
-    def of_strip(self, pair: Pair, strip: Strip) -> np.ndarray:
+    def of_strip(self, pair: Pair, strip: CellStrip) -> np.ndarray:
         """Return the change of a strip without shift and tilt, float32."""
         rows, columns = (np.arange(count) for count in strip.old.shape)
         east, north = pair.places(rows[:, None] + strip.row, columns + strip.column)

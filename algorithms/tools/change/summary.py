@@ -18,7 +18,7 @@ from .stable import Alignment, Sample, Scatter
 TOLD = (0.1, 0.3, 1.0)
 
 
-class Found(NamedTuple):
+class TerrainChange(NamedTuple):
     """What was found out about two terrains."""
 
     pair: Pair
@@ -105,7 +105,7 @@ class ChangeSummary:
         )
 
 
-def summary_of(found: Found, left_out: int) -> ChangeSummary:
+def summary_of(found: TerrainChange, left_out: int) -> ChangeSummary:
     """Return the figures of all places and of the whole area."""
     sample, alignment = found.sample, found.alignment
     limits = limits_of(found.scatter, alignment, sample.spread, sample.slope)

@@ -100,7 +100,7 @@ def residuals_of(
     places = np.column_stack((x, y)) * crs.horizontal_unit
     heights = ground.heights(places, max_edge, progress).heights
     if model is not None:
-        model.tell(crs, progress)
+        model.report(crs, progress)
         model.report_heights(heights - dtm * up, 1.0, FAR_BELOW, progress)
     if ground.counts.classes.any():  # else no file is near, and all checkpoints are outside
         ground.check()

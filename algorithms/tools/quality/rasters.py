@@ -16,7 +16,7 @@ from ...grids.parts import parts_with
 from ...grids.piece_grid import PieceGrid
 from ...rasters import looks
 from ...rasters.geotiff import NODATA, RasterGrid, check_cells
-from ...rasters.looks import Categories, Look, Ramp, Steps
+from ...rasters.looks import Categories, ColourSteps, Look, Ramp
 from ...rasters.sparse import SIDE, RasterPart
 from ...rasters.writing import RasterCells, write_geotiff
 from ...report.pictures import HEIGHTS
@@ -194,7 +194,7 @@ QUALITY_RASTERS = {
     ),
     "strip_differences": QualityRaster(
         "Differences between strips", "Difference between strips, {unit}", strip_differences,
-        Look(Steps(LIMITS, _DIFFERENCES), 6), True, is_height=True, colours=_DIFFERENCES,
+        Look(ColourSteps(LIMITS, _DIFFERENCES), 6), True, is_height=True, colours=_DIFFERENCES,
         class_of=lambda values: np.searchsorted(LIMITS, values, side="right"),
         words=("below 8 cm", "to 16 cm", "above"), shows_greatest=True,
     ),

@@ -101,7 +101,7 @@ def review(
         error = rasters.error[window]
         expected.add(error)
         over += int(np.count_nonzero(error > limit))
-    raster.tell(progress)
+    raster.report(progress)
     if not expected.count:
         raise BareEarthError(f"{source} has no expected error. Give the raster of one.")
     progress(0.2)

@@ -285,7 +285,7 @@ TOOL = FileTool(
             look="breaklines",
         ),
     ),
-    always_tells=True,
+    always_reports=True,
     command="water",
     identifier="water",
     title="Find water",
