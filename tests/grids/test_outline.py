@@ -411,7 +411,7 @@ def test_blocks_far_from_the_area_are_not_made_and_change_nothing(tmp_path):
     nowhere = [ORIGIN[0] + 4000, ORIGIN[1], ORIGIN[0] + 4100, ORIGIN[1] + 90]
     words = ["terrain", tmp_path / "in", "--dtm", tmp_path / "none.tif", "--extent", *nowhere]
     code, _, errors = said(*words)
-    assert code == 1 and "No point lies in the area" in errors
+    assert code == 1 and "500000.01 to 509300" in errors
     assert not os.path.exists(tmp_path / "none.tif")
 
 
