@@ -94,9 +94,9 @@ class Densification(PointRule):
         reachable = distance <= _REACHABLE * self.iteration_distance * np.hypot(1.0, slope)
         state.progress(0.1)
         reach = math.ceil(max(max(state.spacing, 1.0) / cells.size, 1.0))
-        survey = _Survey(points, cells, _ring(cells, surface), reach)
+        mesh = _Mesh(points, cells, _ring(cells, surface), reach)
         part = state.progress.part(0.1, 1.0)
-        joined = _joined(survey, state.seeds, candidates[reachable], self, part)
+        joined = _joined(mesh, state.seeds, candidates[reachable], self, part)
         state.seeds, state.candidates = np.append(state.seeds, joined), candidates[:0]
 
 
@@ -115,7 +115,7 @@ def _steepness_at(cells: Cells, surface: np.ndarray, points: Points) -> np.ndarr
     return np.hypot(north, east) / (2.0 * step)
 
 
-class _Survey(NamedTuple):
+class _Mesh(NamedTuple):
     """What the TIN of each round is made of."""
 
     points: Points
@@ -190,7 +190,7 @@ def _multiples(start: float, end: float) -> np.ndarray:
 
 
 def _joined(
-    survey: _Survey,
+    mesh: _Mesh,
     first: np.ndarray,
     candidates: np.ndarray,
     rules: Densification,
@@ -199,17 +199,17 @@ def _joined(
     """Return the indices of the candidates that join the first vertices, round by round."""
     vertices = first
     for round_ in range(_MOST_ROUNDS):
-        tested = survey.points.take(candidates)
-        corners = survey.triangles(vertices, tested.x, tested.y)
+        tested = mesh.points.take(candidates)
+        corners = mesh.triangles(vertices, tested.x, tested.y)
         progress(1.0 - 0.5 ** (round_ + 0.5))  # each round has less to do than the one before
         inside = corners[:, 0] >= 0
         candidates, corners, tested = candidates[inside], corners[inside], tested.take(inside)
-        new, mirrored = _round(survey, vertices, corners, tested, rules)
+        new, mirrored = _round(mesh, vertices, corners, tested, rules)
         if not len(new):
             break
         vertices = np.concatenate((vertices, candidates[new]))
         # All other points lie in the same triangle as before, which did not take them.
-        x, y, _ = survey.places(corners)
+        x, y, _ = mesh.places(corners)
         changed = mirrored | lost_triangles(x, y, tested.x[new], tested.y[new])
         changed[new] = False
         candidates = candidates[changed]
@@ -234,7 +234,7 @@ def _bounding(vertices: np.ndarray, candidates: np.ndarray, reach: int) -> np.nd
 
 
 def _round(
-    survey: _Survey,
+    mesh: _Mesh,
     vertices: np.ndarray,
     corners: np.ndarray,
     points: Points,
@@ -243,9 +243,7 @@ def _round(
     """Return which candidates become vertices, at most one in each triangle, and which of all were
     tested by their mirror image, since their triangle is too steep.
     """
-    distance, angle, longest, mirrored = _distance_and_angle(
-        survey, vertices, corners, points, rules
-    )
+    distance, angle, longest, mirrored = _distance_and_angle(mesh, vertices, corners, points, rules)
     allowed = np.full(len(corners), math.radians(rules.iteration_angle))
     if rules.reduce_angle_edge:
         allowed *= np.minimum(longest / rules.reduce_angle_edge, 1.0)
@@ -265,7 +263,7 @@ def _round(
 
 
 def _distance_and_angle(
-    survey: _Survey,
+    mesh: _Mesh,
     vertices: np.ndarray,
     corners: np.ndarray,
     points: Points,
@@ -274,7 +272,7 @@ def _distance_and_angle(
     """Return for each candidate the distance from its facet, the largest angle at the corners in
     radians, the longest edge, and whether its mirror image was tested.
     """
-    x, y, z = survey.places(corners)
+    x, y, z = mesh.places(corners)
     normal, longest = _facets(x, y, z)
     steep = np.arctan(np.hypot(normal[0], normal[1])) > math.radians(rules.max_terrain_angle)
     px, py, pz = points.x.copy(), points.y.copy(), points.z
@@ -283,11 +281,11 @@ def _distance_and_angle(
         mirrored = np.flatnonzero(steep)
         px[mirrored] = 2 * x[mirrored, nearest[mirrored]] - px[mirrored]
         py[mirrored] = 2 * y[mirrored, nearest[mirrored]] - py[mirrored]
-        beyond = survey.triangles(vertices, px[mirrored], py[mirrored])
+        beyond = mesh.triangles(vertices, px[mirrored], py[mirrored])
         inside = beyond[:, 0] >= 0
         corners = corners.copy()
         corners[mirrored[inside]] = beyond[inside]
-        x, y, z = survey.places(corners)
+        x, y, z = mesh.places(corners)
         normal, _ = _facets(x, y, z)
     height = pz - (z[:, 0] + normal[0] * (px - x[:, 0]) + normal[1] * (py - y[:, 0]))
     distance = np.abs(height) / np.sqrt(1.0 + normal[0] ** 2 + normal[1] ** 2)
