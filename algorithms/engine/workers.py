@@ -65,11 +65,6 @@ class Workers:
     def __init__(self, resources: Resources = Resources()) -> None:
         self.resources = resources
         self.at_once, self.share = 1, Resources.of(1, 0)  # of each job
-        self._running: dict[Future[JobResult], tuple[Any, Running]] = {}
-        # Jobs that were running when a worker died. They are repeated one by one, to find the one
-        # that kills its worker.
-        self._suspects = collections.deque[Any]()
-        self._repeated: Job | None = None  # the last job that was repeated
 
     def start(self, folder: Path, least: int, blocks: int, tiles: int) -> None:
         """Prepare for jobs on numbers of blocks and tiles, with outputs in a folder; the largest
@@ -88,10 +83,11 @@ class Workers:
         """Yield each job with its result when it ends, until `next_job` returns None and no job is
         running; `poll` gets the weight of what running jobs have done, ten times a second.
         """
-
-        self._running.clear()
-        self._suspects.clear()
-        self._repeated = None
+        self._running: dict[Future[JobResult], tuple[Any, Running]] = {}
+        # Jobs that were running when a worker died. They are repeated one by one, to find the one
+        # that kills its worker.
+        self._suspects = collections.deque[Any]()
+        self._repeated: Job | None = None  # the last job that was repeated
 
         def check() -> None:
             self.check()

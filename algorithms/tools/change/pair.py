@@ -51,7 +51,7 @@ class CellStrip(NamedTuple):
     old: np.ndarray
     new: np.ndarray
     spread: np.ndarray  # what 95 of 100 differences do not exceed by both expected errors, or NaN
-    distance: np.ndarray  # to the ground points of that date whose lie farther away, or NaN
+    distance: np.ndarray  # to the nearest ground point, in the date where it is larger, or NaN
 
     @property
     def change(self) -> np.ndarray:
