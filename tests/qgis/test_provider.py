@@ -415,17 +415,17 @@ def test_the_search_of_the_toolbox_finds_single_tools(registry):
 def found_by(registry, words):
     model = QgsProcessingToolboxProxyModel(None, registry)
     model.setFilterString(words)
-    found = set()
+    return set(found_below(model, QModelIndex()))
 
-    def look(parent):
-        for row in range(model.rowCount(parent)):
-            index = model.index(row, 0, parent)
-            algorithm = model.toolboxModel().algorithmForIndex(model.mapToSource(index))
-            found.update([algorithm.id()] if algorithm else [])
-            look(index)
 
-    look(QModelIndex())
-    return found
+# Not a function in `found_by` that calls itself: it would keep the model until the garbage is
+# collected. Until then QGIS resets it with all others, and in the middle of that it can go.
+def found_below(model, parent):
+    for row in range(model.rowCount(parent)):
+        index = model.index(row, 0, parent)
+        if algorithm := model.toolboxModel().algorithmForIndex(model.mapToSource(index)):
+            yield algorithm.id()
+        yield from found_below(model, index)
 
 
 def test_an_instance_is_of_the_same_kind(any_algorithm):
