@@ -34,6 +34,9 @@ from . import data, manual, tables
 ROOT = Path(__file__).parents[1]
 RESULTS = ROOT / "benchmarks" / "results"
 LOGS = ROOT / "build" / "evidence"
+# What labels and the TIN of them depend on: of grids, the modules that these import.
+_OF_GRIDS = ("cells", "gradient", "inpaint", "morphology", "planes")
+LABELS = ("filters", "tin", *(f"grids/{name}.py" for name in _OF_GRIDS))
 _GROUND = ("filters", "grids", "tin")
 # What git calls a change of figures in a table.
 _FIGURES = "-G^[|] .*[0-9]"
@@ -44,7 +47,7 @@ class Part(NamedTuple):
     """A page of figures, and the commands that measure it."""
 
     name: str
-    rooms: tuple[str, ...]  # folders of algorithms/ whose code the page speaks of
+    rooms: tuple[str, ...]  # folders and files of algorithms/ whose code the page speaks of
     commands: tuple[str, ...]  # modules of benchmarks and arguments; empty if written by hand
     page: str = ""  # file in results/; usually the name
 
@@ -56,17 +59,17 @@ class Part(NamedTuple):
 
 # In the order in which they are measured: the short ones first.
 PARTS = (
-    Part("plain", _GROUND, ("plain --peers --write",)),
+    Part("plain", LABELS, ("plain --peers --write",)),
     Part(
         "expected_error",
         (*_GROUND, "rasters"),
         ("expected_error --write", "expected_error --places --write"),
     ),
     Part("above_ground", (*_GROUND, "tools"), ("above_ground --write",)),
-    Part("values", _GROUND, ("rule_values --write",), "rules_comments"),
-    Part("accuracy", _GROUND, ("accuracy --isprs --real --peers --write",)),
-    Part("scenes", _GROUND, ("accuracy --scenes --sensitivity --write",)),
-    Part("rules", _GROUND, ("ablation --quick --write",)),
+    Part("values", LABELS, ("rule_values --write",), "rules_comments"),
+    Part("accuracy", LABELS, ("accuracy --isprs --real --peers --write",)),
+    Part("scenes", LABELS, ("accuracy --scenes --sensitivity --write",)),
+    Part("rules", LABELS, ("ablation --quick --write",)),
     Part("memory", ("",), ("memory --large 4 --write",)),
     Part("performance", ("",), ("speed --profile --write",)),
     Part("water", (*_GROUND, "tools"), ()),
@@ -117,10 +120,11 @@ def write_stamp(page: Path, stamp: Stamp) -> None:
 
 
 def digest(rooms: Iterable[str], folder: Path = ROOT) -> str:
-    """Return what tells apart the code of some folders of algorithms/."""
+    """Return what tells apart the code of some folders and files of algorithms/."""
     own = hashlib.sha256()
     for room in rooms:
-        for path in sorted((folder / "algorithms" / room).rglob("*.py")):
+        there = folder / "algorithms" / room
+        for path in sorted(there.rglob("*.py")) if there.is_dir() else [there]:
             own.update(path.relative_to(folder).as_posix().encode())
             own.update(path.read_bytes().replace(b"\r\n", b"\n"))
     return own.hexdigest()[:12]
@@ -150,6 +154,8 @@ def machine() -> str:
 
 
 def _rooms(part: Part) -> str:
+    if part.rooms == LABELS:
+        return "filters, tin and of grids " + ", ".join(_OF_GRIDS)
     return ", ".join(part.rooms) if part.rooms != ("",) else "algorithms"
 
 

@@ -20,6 +20,20 @@ def test_what_a_page_says_about_itself_is_right():
         )
 
 
+def test_pages_of_labels_speak_of_all_that_filters_import_of_grids():
+    rooms = evidence.ROOT / "algorithms"
+    told = {path.stem for path in map(rooms.joinpath, evidence.LABELS) if path.suffix}
+    theirs = re.compile(r"^ *from (?:\.+grids)\.(\w+) import", re.M)
+    within = re.compile(r"^ *from \.(\w+) import", re.M)
+    found = set()
+    for room in ("filters", "tin"):
+        for path in (rooms / room).rglob("*.py"):
+            found |= set(theirs.findall(path.read_text("utf-8")))
+    for name in sorted(told):
+        found |= set(within.findall((rooms / "grids" / f"{name}.py").read_text("utf-8")))
+    assert found == told
+
+
 def test_every_page_of_figures_is_a_part():
     assert {part.path for part in PARTS} == set(RESULTS.glob("*.md"))
 
@@ -94,3 +108,6 @@ def test_line_endings_and_other_rooms_change_no_digest(tmp_path):
     assert digest(["core"], tmp_path) == first
     (room / "code.py").write_bytes(b"a = 2\n")
     assert digest(["core"], tmp_path) != first
+    changed = digest(["core/code.py"], tmp_path)
+    (room / "other.py").write_bytes(b"a = 2\n")
+    assert digest(["core/code.py"], tmp_path) == changed
