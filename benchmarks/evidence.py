@@ -70,8 +70,12 @@ PARTS = (
     Part("accuracy", LABELS, ("accuracy --isprs --real --peers --write",)),
     Part("scenes", LABELS, ("accuracy --scenes --sensitivity --write",)),
     Part("rules", LABELS, ("ablation --quick --write",)),
-    Part("memory", ("",), ("memory --large 4 --write",)),
-    Part("performance", ("",), ("speed --profile --write",)),
+    Part("memory", ("",), ("memory --write",)),
+    Part(
+        "performance",
+        ("",),
+        ("speed --sizes 1 10 --rounds 2 --peer-rounds 1 --timeout 120 --profile --write",),
+    ),
     Part("water", (*_GROUND, "tools"), ()),
     Part("reliability", ("",), ()),
 )

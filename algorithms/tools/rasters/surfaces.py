@@ -46,7 +46,8 @@ def surfaces(
     cells, at_gaps = {}, {}
     for name, part in zip(names, progress.shares(*[1.0] * len(names))):
         if name == "canopy" and view.ground.any():
-            heights, loose = _canopy(sizes, view, window, made["terrain"], chosen, part)
+            is_above = ~view.ground[chosen]
+            heights, loose = _canopy(sizes, view, window, made["terrain"], points, is_above, part)
         else:
             heights, loose = _highest_points(sizes, points, view, window, part)
         cells[name] = heights.astype(np.float32)
@@ -59,25 +60,27 @@ def _canopy(
     view: BlockView,
     window: CellWindow,
     terrain: np.ndarray,
-    chosen: np.ndarray,
+    points: Points,
+    is_above: np.ndarray,
     progress: Progress,
 ) -> tuple[np.ndarray, np.ndarray]:
     """Return the greatest height above the ground of each cell, on top of the terrain in the
-    middle of the cell, and which chosen points wide gaps need.
+    middle of the cell, and which points wide gaps need, given those that are not ground.
     """
     # A surface that leans on the terrain: minus the terrain of the cell, which across wide gaps is
     # not known in a block, it is the height above the ground under the point.
-    ground = _Ground(sizes, view, progress.part(0.0, 0.2))
-    points, is_above = view.points.take(chosen), ~view.ground[chosen]
+    ground: _Ground | None = _Ground(sizes, view, progress.part(0.0, 0.2))
     above = np.zeros(points.count)
-    above[is_above] = points.z[is_above] - ground.below(
-        points.x[is_above], points.y[is_above], progress.part(0.2, 0.5)
-    )
+    above[is_above] = -ground.below(points.x[is_above], points.y[is_above], progress.part(0.2, 0.5))
+    above[is_above] += points.z[is_above]
+    unknown = np.isnan(terrain)
+    if not unknown.any():
+        ground = None  # takes memory that the surface needs
     points = Points(points.x, points.y, above)
     heights, loose = _highest_points(sizes, points, view, window, progress.part(0.5, 1.0))
     below = terrain.astype(np.float64)
-    row, column = np.nonzero(np.isnan(terrain) & ~np.isnan(heights))
-    if len(row):
+    row, column = np.nonzero(unknown & ~np.isnan(heights))
+    if ground is not None and len(row):
         west, south = view.start(window, sizes.cell)
         x, y = west + (column + 0.5) * sizes.cell, south + (row + 0.5) * sizes.cell
         below[row, column] = ground.below(x, y)
