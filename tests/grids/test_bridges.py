@@ -285,6 +285,6 @@ def test_the_bridges_of_a_real_survey_are_not_ground(method):
     deck, ground = cloud.classification == 17, cloud.classification == 2
     cloud.classification[:] = 0
     found, _ = classify_cloud(cloud, method.parameters(), Selection(bridge_class=17))
-    # 27.8 and 28.2 %, by the grid minimum filter 31.1 % (25.4 % on 27 November 2026).
-    assert np.mean(found[deck] == 2) <= 0.315
+    # 26.8 to 27.8 % by method; 24.5 to 25.5 % before halls on slopes and raised squares were told.
+    assert np.mean(found[deck] == 2) <= 0.285
     assert np.count_nonzero(found[ground] == 17) < 20
