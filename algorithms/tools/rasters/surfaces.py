@@ -71,20 +71,17 @@ def _canopy(
     # not known in a block, it is the height above the ground under the point.
     ground = _Ground(sizes, view, progress.part(0.0, 0.2))
     above = np.zeros(points.count)
-    above[is_above] = -ground.below(points.x[is_above], points.y[is_above], progress.part(0.2, 0.5))
-    above[is_above] += points.z[is_above]
-    unknown = np.isnan(terrain)
-    # It takes memory that the surface needs.
-    still_needed = ground if unknown.any() else None
-    del ground
+    above[is_above] = points.z[is_above] - ground.below(
+        points.x[is_above], points.y[is_above], progress.part(0.2, 0.5)
+    )
     points = Points(points.x, points.y, above)
     heights, loose = _highest_points(sizes, points, view, window, progress.part(0.5, 1.0))
     below = terrain.astype(np.float64)
-    row, column = np.nonzero(unknown & ~np.isnan(heights))
-    if still_needed is not None and len(row):
+    row, column = np.nonzero(np.isnan(terrain) & ~np.isnan(heights))
+    if len(row):
         west, south = view.start(window, sizes.cell)
         x, y = west + (column + 0.5) * sizes.cell, south + (row + 0.5) * sizes.cell
-        below[row, column] = still_needed.below(x, y)
+        below[row, column] = ground.below(x, y)
     return heights + below, loose
 
 
