@@ -25,9 +25,16 @@ from .surface import CellLattice, Surface
 # Cells of the lattice along the side of a raster cell: the centre of a raster cell is a corner of
 # four of them.
 VERTICES_A_SIDE = 2
-# Distance in lattice cells from the queries near gaps within which vertices are used: the circle of
-# a triangle over a gap holds no vertex, so it does not reach far into land without gaps.
+# Distance in lattice cells from the queries, and from the gaps beside them, up to which vertices are
+# used: the circle of a triangle holds no vertex, so it reaches no farther into land without gaps.
 _RIM = WIDEST
+# Lattice cells along the side of a square. A gap is made of squares without a vertex in or beside
+# them: a circle with a radius of more than three squares that holds no vertex holds such a square,
+# and no place in the circle is farther from one than `_NEAR_A_GAP` squares.
+_SQUARE = 2
+_NEAR_A_GAP = 4
+# Most squares for each vertex in the rectangle of a lattice whose gaps are looked for.
+_MOST_SQUARES = 16
 # The same for vertices that are triangulated at first. Others are added if a circle holds any.
 _NARROW_RIM = 2
 # Which cells of some tiles are meant, bool (TILE, TILE), by row and column of the tile.
@@ -223,7 +230,7 @@ class DenseSurface:
     ) -> np.ndarray:
         """Return heights of the remaining queries, on a triangulation of the vertices near them."""
         near = _cells_of(self.thinned, x, y)
-        vertices = np.flatnonzero(self._are_vertices(near, _RIM))
+        vertices = np.flatnonzero(self._are_vertices(_with_gaps(self.thinned, near), _RIM))
         meshed = self._are_vertices(near, _NARROW_RIM)[vertices]
         progress(0.15)
         surface = Surface(self._points.take(vertices), meshed)
@@ -253,6 +260,42 @@ def _cells_of(thinned: LatticeSample, x: np.ndarray, y: np.ndarray) -> _CellsOfT
         )
         found[place] = np.zeros((TILE, TILE), dtype=bool)
         found[place][row, column] = True
+    return found
+
+
+def _with_gaps(thinned: LatticeSample, near: _CellsOfTiles) -> _CellsOfTiles | None:
+    """Return some cells and those of the gaps beside them, also beyond all vertices; None for all
+    cells, if there are many for each vertex.
+    """
+    from scipy import ndimage
+
+    side, rows, columns = TILE // _SQUARE, *zip(*thinned.tiles)
+    south, west = min(rows) - 1, min(columns) - 1
+    shape = (max(rows) + 2 - south) * side, (max(columns) + 2 - west) * side
+    if shape[0] * shape[1] > max(_MOST_SQUARES * thinned.count, 9 * side * side):
+        return None
+
+    def part(place: TilePlace) -> tuple[slice, slice]:
+        row, column = (number - first for number, first in zip(place, (south, west)))
+        return slice(row * side, (row + 1) * side), slice(column * side, (column + 1) * side)
+
+    occupied, beside = np.zeros((2, *shape), dtype=bool)
+    for place, tile in thinned.tiles.items():
+        row, column = np.divmod(tile.slots, TILE)
+        occupied[part(place)][row // _SQUARE, column // _SQUARE] = True
+    for place, cells in near.items():
+        squares = cells.reshape(side, _SQUARE, side, _SQUARE).any(axis=(1, 3))
+        if place in thinned.tiles:
+            beside[part(place)] = squares
+    gaps, count = ndimage.label(~within_square(np.maximum, occupied, 1))
+    touched = np.zeros(count + 1, dtype=bool)
+    touched[gaps[within_square(np.maximum, beside, _NEAR_A_GAP)]] = True
+    touched[0] = False
+    found, are_gaps = dict(near), touched[gaps]
+    for place in itertools.product(range(south, max(rows) + 2), range(west, max(columns) + 2)):
+        if are_gaps[part(place)].any():
+            cells = are_gaps[part(place)].repeat(_SQUARE, axis=0).repeat(_SQUARE, axis=1)
+            found[place] = found[place] | cells if place in found else cells
     return found
 
 
