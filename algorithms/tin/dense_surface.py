@@ -25,9 +25,11 @@ from .surface import CellLattice, Surface
 # Cells of the lattice along the side of a raster cell: the centre of a raster cell is a corner of
 # four of them.
 VERTICES_A_SIDE = 2
-# Distance in lattice cells from the queries, and from the gaps beside them, up to which vertices are
-# used: the circle of a triangle holds no vertex, so it reaches no farther into land without gaps.
+# Distance in lattice cells from the queries, and from the gaps beside them, within which vertices
+# are used: the circle of a triangle holds no vertex, so it does not reach far into other land.
 _RIM = WIDEST
+# The same for vertices that are triangulated at first. Others are added if a circle holds any.
+_NARROW_RIM = 2
 # Lattice cells along the side of a square. A gap is made of squares without a vertex in or beside
 # them: a circle with a radius of more than three squares that holds no vertex holds such a square,
 # and no place in the circle is farther from one than `_NEAR_A_GAP` squares.
@@ -35,8 +37,6 @@ _SQUARE = 2
 _NEAR_A_GAP = 4
 # Most squares for each vertex in the rectangle of a lattice whose gaps are looked for.
 _MOST_SQUARES = 16
-# The same for vertices that are triangulated at first. Others are added if a circle holds any.
-_NARROW_RIM = 2
 # Which cells of some tiles are meant, bool (TILE, TILE), by row and column of the tile.
 _CellsOfTiles = Dict[TilePlace, np.ndarray]
 _A_LITTLE = 0.01  # rounding error of a vertex at the border of a tile, in lattice cells

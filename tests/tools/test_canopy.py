@@ -12,6 +12,7 @@ from bare_earth import BareEarthError
 from bare_earth.algorithms.cli import main
 from bare_earth.algorithms.rasters.content import NO_CELLS
 from bare_earth.algorithms.rasters.geotiff import read_raster
+from bare_earth.algorithms.tools.rasters import surfaces
 
 rasterio = pytest.importorskip("rasterio")
 
@@ -73,6 +74,19 @@ def test_the_surface_and_the_canopy_have_values_in_the_same_cells(tmp_path):
     assert np.array_equal(np.isnan(chm), np.isnan(dsm) | np.isnan(dtm))
     # Cells without a point are interpolated between heights above the ground.
     assert np.nanpercentile(np.abs(chm - np.maximum(dsm - dtm, 0.0)), 95) < 0.3
+
+
+def test_strips_of_points_make_no_difference(tmp_path, monkeypatch):
+    slope(tmp_path / "in.las", tree=True)
+    made = []
+    for count in (surfaces._POINTS_A_STRIP, 2_000):
+        monkeypatch.setattr(surfaces, "_POINTS_A_STRIP", count)
+        files = {name: tmp_path / f"{name}-{count}.tif" for name in ("dsm", "chm")}
+        bare_earth.terrain(tmp_path / "in.las", **files, dtm_cell_size=0.7)
+        made.append([cells(path) for path in files.values()])
+    for whole, strips in zip(*made):
+        assert np.isfinite(whole).any()
+        np.testing.assert_allclose(strips, whole, atol=1e-4)
 
 
 def test_a_step_on_a_breakline_has_no_canopy(tmp_path):
