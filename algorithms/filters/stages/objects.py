@@ -234,7 +234,7 @@ class Rims(GridRule):
     objects_grow_back: bool = False  # whether cells of tall objects may become ground again
     # Width in metres of an opening that must cut off a cell for it to be a rim, because the sides
     # of hollows have rims as well. None if any cell can be a rim.
-    width: float | None = 8.0
+    width: float | None = 20.0
 
     def apply(self, grid: GridState, progress: Progress = SILENT) -> None:
         """Mark the cells of low objects as raised."""
