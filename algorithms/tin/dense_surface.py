@@ -10,7 +10,8 @@ from __future__ import annotations
 
 import itertools
 import math
-from typing import Callable, Dict
+from functools import cached_property
+from typing import Callable
 
 import numpy as np
 
@@ -18,27 +19,17 @@ from ..core.points import Points
 from ..core.progress import SILENT, Progress
 from ..core.threads import in_threads
 from ..grids.morphology import within_square
+from .gaps import CellsOfTiles, Gaps
 from .lattice_sample import TILE, LatticeSample, TilePlace
-from .local_delaunay import WIDEST, LocalDelaunay, Queries
+from .local_delaunay import LocalDelaunay, Queries
 from .surface import CellLattice, Surface
 
 # Cells of the lattice along the side of a raster cell: the centre of a raster cell is a corner of
 # four of them.
 VERTICES_A_SIDE = 2
-# Distance in lattice cells from the queries, and from the gaps beside them, within which vertices
-# are used: the circle of a triangle holds no vertex, so it does not reach far into other land.
-_RIM = WIDEST
-# The same for vertices that are triangulated at first. Others are added if a circle holds any.
-_NARROW_RIM = 2
-# Lattice cells along the side of a square. A gap is made of squares without a vertex in or beside
-# them: a circle with a radius of more than three squares that holds no vertex holds such a square,
-# and no place in the circle is farther from one than `_NEAR_A_GAP` squares.
-_SQUARE = 2
-_NEAR_A_GAP = 4
-# Most squares for each vertex in the rectangle of a lattice whose gaps are looked for.
-_MOST_SQUARES = 16
-# Which cells of some tiles are meant, bool (TILE, TILE), by row and column of the tile.
-_CellsOfTiles = Dict[TilePlace, np.ndarray]
+# Distance in lattice cells from the queries near gaps within which vertices are triangulated at
+# first. Others are added if a circle holds any.
+_RIM = 2
 _A_LITTLE = 0.01  # rounding error of a vertex at the border of a tile, in lattice cells
 _ROUNDING = 1e-6  # rounding error of an anchor, as a share of a cell
 
@@ -230,14 +221,21 @@ class DenseSurface:
     ) -> np.ndarray:
         """Return heights of the remaining queries, on a triangulation of the vertices near them."""
         near = _cells_of(self.thinned, x, y)
-        vertices = np.flatnonzero(self._are_vertices(_with_gaps(self.thinned, near), _RIM))
-        meshed = self._are_vertices(near, _NARROW_RIM)[vertices]
+        are_meshed = self._are_vertices(near, _RIM)
+        gaps = self._gaps
+        are_used = self._are_vertices() if gaps is None else gaps.are_round(near)
+        vertices = np.flatnonzero(are_meshed | are_used)
+        meshed = are_meshed[vertices]
         progress(0.15)
         surface = Surface(self._points.take(vertices), meshed)
         progress(0.2)
         return surface.heights(x, y, max_edge, progress.part(0.2, 1.0), cells)
 
-    def _are_vertices(self, near: _CellsOfTiles | None = None, rim: int = 0) -> np.ndarray:
+    @cached_property
+    def _gaps(self) -> Gaps | None:
+        return Gaps(self.thinned) if Gaps.can_be_found(self.thinned) else None
+
+    def _are_vertices(self, near: CellsOfTiles | None = None, rim: int = 0) -> np.ndarray:
         """Return a mask (n,) of the vertices, or only of the vertices near some cells."""
         is_vertex = np.zeros(self._points.count, dtype=bool)
         is_vertex[self.thinned.hull] = True
@@ -250,7 +248,7 @@ class DenseSurface:
         return is_vertex
 
 
-def _cells_of(thinned: LatticeSample, x: np.ndarray, y: np.ndarray) -> _CellsOfTiles:
+def _cells_of(thinned: LatticeSample, x: np.ndarray, y: np.ndarray) -> CellsOfTiles:
     """Return a mask (TILE, TILE) of the cells with places for each tile that has any."""
     found = {}
     for place, indices in thinned.by_tile(x, y):
@@ -263,43 +261,7 @@ def _cells_of(thinned: LatticeSample, x: np.ndarray, y: np.ndarray) -> _CellsOfT
     return found
 
 
-def _with_gaps(thinned: LatticeSample, near: _CellsOfTiles) -> _CellsOfTiles | None:
-    """Return some cells and those of the gaps beside them, also beyond all vertices; None for all
-    cells, if there are many for each vertex.
-    """
-    from scipy import ndimage
-
-    side, rows, columns = TILE // _SQUARE, *zip(*thinned.tiles)
-    south, west = min(rows) - 1, min(columns) - 1
-    shape = (max(rows) + 2 - south) * side, (max(columns) + 2 - west) * side
-    if shape[0] * shape[1] > max(_MOST_SQUARES * thinned.count, 9 * side * side):
-        return None
-
-    def part(place: TilePlace) -> tuple[slice, slice]:
-        row, column = (number - first for number, first in zip(place, (south, west)))
-        return slice(row * side, (row + 1) * side), slice(column * side, (column + 1) * side)
-
-    occupied, beside = np.zeros((2, *shape), dtype=bool)
-    for place, tile in thinned.tiles.items():
-        row, column = np.divmod(tile.slots, TILE)
-        occupied[part(place)][row // _SQUARE, column // _SQUARE] = True
-    for place, cells in near.items():
-        squares = cells.reshape(side, _SQUARE, side, _SQUARE).any(axis=(1, 3))
-        if place in thinned.tiles:
-            beside[part(place)] = squares
-    gaps, count = ndimage.label(~within_square(np.maximum, occupied, 1))
-    touched = np.zeros(count + 1, dtype=bool)
-    touched[gaps[within_square(np.maximum, beside, _NEAR_A_GAP)]] = True
-    touched[0] = False
-    found, are_gaps = dict(near), touched[gaps]
-    for place in itertools.product(range(south, max(rows) + 2), range(west, max(columns) + 2)):
-        if are_gaps[part(place)].any():
-            cells = are_gaps[part(place)].repeat(_SQUARE, axis=0).repeat(_SQUARE, axis=1)
-            found[place] = found[place] | cells if place in found else cells
-    return found
-
-
-def _marked(cells: _CellsOfTiles, rim: int) -> dict[TilePlace, np.ndarray]:
+def _marked(cells: CellsOfTiles, rim: int) -> dict[TilePlace, np.ndarray]:
     """Return a mask (TILE * TILE,) of the cells near some cells for each tile that has any."""
     marked: dict[TilePlace, np.ndarray] = {}
     for place, held in cells.items():
