@@ -153,20 +153,25 @@ class Regions:
         """
         from scipy import ndimage
 
-        walls, wide = np.ones(len(self.width)), np.flatnonzero(self.width > _WIDE)
-        number, heights = self.number, self._heights
+        number, heights, walls = self.number, self._heights, np.ones(len(self.width))
         bend = np.fmax(*bends(heights))
-        rough = ndimage.median(bend, np.where(np.isfinite(bend), number, 0), wide) >= _ROUGH
+        bent, known = (
+            np.bincount(number[cells], minlength=len(walls))
+            for cells in (bend >= _ROUGH, np.isfinite(bend))
+        )
+        is_rough = (self.width > _WIDE) & (bent > 0) & (2 * bent >= known)
+        if not is_rough.any():
+            return walls
         low = np.nan_to_num(heights, nan=np.inf)
         at_wall, at_side = (
             heights - within_square(np.minimum, low, max(round(reach / self._size), 1))
             for reach in (_OF_WALL, _OF_SIDE)
         )
         rim = within_square(np.minimum, number, 1) != within_square(np.maximum, number, 1)
-        rim &= at_side > 0.0
-        share = np.divide(at_wall, at_side, out=np.ones(number.shape), where=rim)
-        of_wide = ndimage.median(share, np.where(rim, number, 0), wide)
-        walls[wide[rough]] = of_wide[rough]
+        rim &= is_rough[number] & (at_side > 0.0)
+        share, number = at_wall[rim] / at_side[rim], number[rim]
+        rough = np.unique(number)
+        walls[rough] = ndimage.median(share, number, rough)
         return walls
 
 
