@@ -79,8 +79,9 @@ def test_the_surface_and_the_canopy_have_values_in_the_same_cells(tmp_path):
 def test_strips_of_points_make_no_difference(tmp_path, monkeypatch):
     slope(tmp_path / "in.las", tree=True)
     made = []
-    for count in (surfaces._POINTS_A_STRIP, 2_000):
+    for count, tile in ((surfaces._POINTS_A_STRIP, surfaces.TILE), (2_000, 16)):
         monkeypatch.setattr(surfaces, "_POINTS_A_STRIP", count)
+        monkeypatch.setattr(surfaces, "TILE", tile)  # strips of the canopy end at its multiples
         files = {name: tmp_path / f"{name}-{count}.tif" for name in ("dsm", "chm")}
         bare_earth.terrain(tmp_path / "in.las", **files, dtm_cell_size=0.7)
         made.append([cells(path) for path in files.values()])
